@@ -1,0 +1,211 @@
+"""The command line: one short function a command; each imports what it needs when it needs it."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import re
+import sys
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from . import __version__
+from .errors import ReparamError, UsageError
+from .viewer.keys import keys_text
+
+if TYPE_CHECKING:
+    from .subject import Subject
+
+LARGEST_SIDE = 16384
+ABOUT = (
+    "OpenGL's evaluators on today's GPU, and what a change of variables does to what they draw. "
+    "Without a command: the window, or without a screen the figures as PNG into ./figures."
+)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command. The exit code: 0 good, 1 could not, 2 wrong words, 3 a bad file."""
+    options = parser().parse_args(arguments)
+    try:
+        return int(options.run(options))
+    except ReparamError as error:
+        if options.debug:
+            raise
+        print(f"reparam: {error}", file=sys.stderr)
+        return error.exit_code
+    except KeyboardInterrupt:
+        return 130
+
+
+def parser() -> argparse.ArgumentParser:
+    """All commands with their options."""
+    top = argparse.ArgumentParser(prog="reparam", description=ABOUT)
+    top.add_argument("--version", action="version", version=f"reparam {__version__}")
+    top.add_argument("--debug", action="store_true", help="show a traceback with an error")
+    top.set_defaults(run=run_default)
+    commands = top.add_subparsers(title="commands", metavar="COMMAND")
+
+    view = commands.add_parser(
+        "view",
+        help="open the window",
+        epilog="keys:\n" + keys_text(),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    view.add_argument("subject", nargs="?", default="fig5", metavar="SCENE|FILE")
+    _add_drawing_options(view, "1024x768")
+    view.set_defaults(run=run_view)
+
+    listing = commands.add_parser("list", help="scenes and their parameters")
+    listing.add_argument("--json", action="store_true")
+    listing.set_defaults(run=run_list)
+
+    render = commands.add_parser("render", help="draw one picture, no screen needed")
+    render.add_argument("subject", metavar="SCENE|FILE")
+    render.add_argument("-o", "--output", required=True, metavar="OUT.png", type=Path)
+    _add_drawing_options(render, "512x512")
+    render.add_argument("--plain", action="store_true", help="the patch alone, centred")
+    render.set_defaults(run=run_render)
+
+    check = commands.add_parser("check", help="compute the claims of the scenes")
+    check.add_argument("scenes", nargs="*", metavar="SCENE")
+    check.add_argument("--json", action="store_true")
+    check.set_defaults(run=run_check)
+
+    doctor = commands.add_parser("doctor", help="what OpenGL is here, and what mends it")
+    doctor.add_argument("--json", action="store_true")
+    doctor.set_defaults(run=run_doctor)
+    return top
+
+
+def _add_drawing_options(command: argparse.ArgumentParser, size: str) -> None:
+    command.add_argument("--size", default=size, metavar="WxH", help=f"pixels; {size} if not given")
+    command.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        dest="assignments",
+        help="a parameter of the scene or of its display; `reparam list` names them",
+    )
+    command.add_argument(
+        "--evaluator",
+        choices=("vertex", "tessellation"),
+        help="if not given: tessellation on a GPU that has it, vertex on software",
+    )
+
+
+def parse_size(text: str) -> tuple[int, int]:
+    """(width, height) of "640x480". Raises UsageError."""
+    match = re.fullmatch(r"(\d{1,9})[xX](\d{1,9})", text)
+    size = (int(match[1]), int(match[2])) if match else (0, 0)
+    if not all(1 <= side <= LARGEST_SIDE for side in size):
+        raise UsageError(
+            f"--size: expected WIDTHxHEIGHT, each from 1 to {LARGEST_SIDE}, found {text!r}"
+        )
+    return size
+
+
+def _subject(options: argparse.Namespace) -> Subject:
+    from .subject import open_subject
+
+    return open_subject(options.subject).assigned(options.assignments)
+
+
+def run_default(options: argparse.Namespace) -> int:
+    """The viewer; without a screen the figures as pictures."""
+    from .viewer.screen import screen_missing
+
+    missing = screen_missing()
+    if missing is None:
+        return main(["--debug", "view"] if options.debug else ["view"])
+    from .gallery import write_figures
+
+    folder = Path("figures")
+    write_figures(folder, (1024, 768))
+    print(f"{missing}; the figures are in {folder.resolve()}")
+    return 0
+
+
+def run_view(options: argparse.Namespace) -> int:
+    """The window."""
+    size, subject = parse_size(options.size), _subject(options)
+    from .viewer.window import show
+
+    return show(subject, size, options.evaluator)
+
+
+def run_render(options: argparse.Namespace) -> int:
+    """One picture."""
+    from .files.output import check_output, save_picture
+
+    size, output = parse_size(options.size), check_output(options.output)
+    subject = _subject(options)
+    from .snapshot import Studio
+
+    studio = Studio(options.evaluator)
+    picture = studio.draw(subject, size, plain=options.plain)
+    for warning in studio.warnings():
+        print(f"reparam: {warning}", file=sys.stderr)
+    save_picture(picture, output)
+    return 0
+
+
+def run_list(options: argparse.Namespace) -> int:
+    """Scenes with their parameters, then the display's, which all scenes share."""
+    from .scenes.registry import load_scene, scene_names
+    from .subject import DISPLAY
+
+    scenes = [load_scene(name) for name in (*scene_names(), "surface")]
+    if options.json:
+        rows = [{"scene": s.name, "title": s.title, "figure": s.figure,
+                 "parameters": [p.row() for p in (*s.parameters.values(), *DISPLAY.values())]}
+                for s in scenes]  # fmt: skip
+        print(json.dumps(rows, indent=2, ensure_ascii=False))
+        return 0
+    for scene in scenes:
+        print(f"{'FILE' if scene.opens_files else scene.name}: {scene.title}")
+        _print_parameters(scene.parameters.values())
+    print("any scene:")
+    _print_parameters(DISPLAY.values())
+    return 0
+
+
+def run_check(options: argparse.Namespace) -> int:
+    """The claims as a table; 1 if one fails."""
+    from .scenes.claims import judge
+    from .scenes.registry import load_scene, scene_names
+    from .snapshot import Studio
+
+    studio, verdicts = Studio(), []
+    for name in options.scenes or scene_names():
+        for claim in load_scene(name).claimed():
+            verdict = judge(name, claim, studio)
+            verdicts.append(verdict)
+            if not options.json:
+                mark = "ok  " if verdict.ok else "FAIL"
+                print(f"{mark} {name:6} {verdict.equation:8} {verdict.statement}")
+                print(f"       expected {verdict.expected}  measured {verdict.measured}"
+                      f"  tolerance {verdict.tolerance:g}")  # fmt: skip
+    if options.json:
+        print(json.dumps([asdict(verdict) for verdict in verdicts], indent=2))
+    return 0 if all(verdict.ok for verdict in verdicts) else 1
+
+
+def run_doctor(options: argparse.Namespace) -> int:
+    """What is here; 1 if nothing can be drawn."""
+    from .doctor import examine
+
+    report = examine()
+    if options.json:
+        print(json.dumps(report, indent=2))
+    else:
+        for name, value in report.items():
+            print(f"{name:24} {value}")
+    return 0 if report["draws"] else 1
+
+
+def _print_parameters(parameters) -> None:  # type: ignore[no-untyped-def]
+    for p in parameters:
+        print(f"  {p.name:10} {p.expected()}; default {p.default!r}   {p.help}")

@@ -1,0 +1,34 @@
+"""Writing pictures."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from ..errors import ReparamError, UsageError
+
+
+def check_output(path: Path) -> Path:
+    """The path itself if a picture can be written there: asked before the work is done."""
+    if path.suffix.lower() != ".png":
+        raise UsageError(f"--output: expected a name ending in .png, found {str(path)!r}")
+    if not path.parent.is_dir():
+        raise ReparamError(f"{path}: expected an existing folder, found no {path.parent}")
+    if path.is_dir() or not os.access(path if path.exists() else path.parent, os.W_OK):
+        raise ReparamError(f"{path}: expected a file that may be written, found none")
+    return path
+
+
+def save_picture(picture: NDArray[np.uint8], path: Path) -> None:
+    """Write (height, width, 3) as PNG; what stood there stays until the new one is whole."""
+    part = path.with_name(f".{path.name}.part")
+    try:
+        Image.fromarray(picture).save(part, "PNG")
+        os.replace(part, path)
+    except OSError as error:
+        part.unlink(missing_ok=True)
+        raise ReparamError(f"{path}: could not be written: {error.strerror or error}") from error

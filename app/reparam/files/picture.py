@@ -1,0 +1,50 @@
+"""Reading the user's pictures."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from PIL import Image, ImageOps
+
+from ..errors import FileFormatError
+
+MOST_PIXELS = 1 << 27
+
+
+@dataclass(frozen=True)
+class Pixels:
+    """8-bit RGB, bottom row first, as OpenGL wants it."""
+
+    size: tuple[int, int]
+    data: bytes
+
+
+def read_picture(path: Path, largest: int) -> Pixels:
+    """Any picture that Pillow reads, turned upright by its EXIF tag, on white where transparent.
+
+    Raises FileFormatError if there is none at `path`, it is corrupt, or larger than `largest`
+    on a side or 2^27 pixels in all: the size is known before memory is taken.
+    """
+    try:
+        with Image.open(path) as image:
+            width, height = image.size
+            if max(width, height) > largest or width * height > MOST_PIXELS:
+                raise FileFormatError(
+                    f"{path}: expected a picture of at most {largest} pixels a side and "
+                    f"{MOST_PIXELS} in all, found {width} x {height}"
+                )
+            upright = ImageOps.exif_transpose(image)
+            if upright.has_transparency_data:
+                upright = upright.convert("RGBA")
+                ground = Image.new("RGBA", upright.size, "white")
+                upright = Image.alpha_composite(ground, upright)
+            rgb = upright.convert("RGB")
+    except FileFormatError:
+        raise
+    except FileNotFoundError:
+        raise FileFormatError(f"{path}: expected a picture, found no such file") from None
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
+        raise FileFormatError(f"{path}: expected a picture, found {error}") from None
+    flipped = rgb.transpose(Image.Transpose.FLIP_TOP_BOTTOM)
+    return Pixels(flipped.size, flipped.tobytes())

@@ -1,0 +1,30 @@
+"""The figures as files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from .files.output import save_picture
+from .scenes.registry import load_scene, scene_names
+from .snapshot import Studio
+from .subject import Subject, open_subject
+
+
+def plates() -> Iterator[tuple[str, Subject]]:
+    """All pictures worth showing: a file name, without its ending, and the subject."""
+    for name in scene_names():
+        for plate in load_scene(name).plates:
+            subject = open_subject(name).assigned(plate)
+            yield "-".join([name, *(word.replace("=", "-") for word in plate)]), subject
+
+
+def write_figures(folder: Path, size: tuple[int, int]) -> list[Path]:
+    """Draw all plates as PNG into the folder, made if missing. Returns the files."""
+    folder.mkdir(parents=True, exist_ok=True)
+    studio, written = Studio(), []
+    for name, subject in plates():
+        path = folder / f"{name}.png"
+        save_picture(studio.draw(subject, size), path)
+        written.append(path)
+    return written

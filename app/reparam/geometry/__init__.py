@@ -1,0 +1,1 @@
+"""The mathematics: numpy float64, no OpenGL, no files, no scenes."""

@@ -1,0 +1,83 @@
+"""Orthographic cameras: where a box of space lands in a viewport."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+MARGIN = 1.08  # a framed box leaves 4 % of the viewport free on each side
+
+
+@dataclass(frozen=True)
+class View:
+    """What a hand changes: zoom, pan (in model units of the view plane), and the orbit's angles."""
+
+    zoom: float = 1.0
+    pan: tuple[float, float] = (0.0, 0.0)
+    azimuth: float = -60.0  # degrees about the z-axis; 0 looks along +y, from the front
+    elevation: float = 30.0  # degrees above the plane z = 0
+
+
+@dataclass(frozen=True)
+class Camera:
+    """x, y, z of the viewer (right, up, towards the eye) from model coordinates.
+
+    `rotation` (3, 3), `center` (3,) in model coordinates at the viewport's middle, `half_width`
+    and `half_height` of the viewport and `half_depth` before and behind the centre, in model units.
+    """
+
+    rotation: Array
+    center: Array
+    half_width: float
+    half_height: float
+    half_depth: float
+
+    def clip_from_model(self) -> Array:
+        """The 4 x 4 matrix to clip coordinates, column vectors, near in front (z = -1)."""
+        extent = np.array([self.half_width, self.half_height, -self.half_depth])
+        matrix = np.eye(4)
+        matrix[:3, :3] = self.rotation / extent[:, None]
+        matrix[:3, 3] = -matrix[:3, :3] @ self.center
+        return matrix
+
+    def nearer(self, depth: float) -> Camera:
+        """The same, all things closer to the eye by `depth` (in normalised depth)."""
+        away = self.rotation[2] * (depth * self.half_depth)
+        return replace(self, center=self.center - away)
+
+    def pixels(self, points: Array, width: float, height: float) -> Array:
+        """Pixel coordinates (..., 2), y up from the lower left, of model points (..., 3)."""
+        matrix = self.clip_from_model()
+        clip = points @ matrix[:2, :3].T + matrix[:2, 3]
+        return np.asarray((clip + 1.0) / 2.0 * np.array([width, height]))
+
+
+def orbit_rotation(azimuth: float, elevation: float) -> Array:
+    """Rows: right, up, towards the eye, for an eye at these angles (degrees), z up."""
+    a, e = np.radians([azimuth, elevation])
+    right = np.array([np.cos(a), np.sin(a), 0.0])
+    eye = np.array([np.sin(a) * np.cos(e), -np.cos(a) * np.cos(e), np.sin(e)])
+    return np.stack([right, np.cross(eye, right), eye])
+
+
+def frame(points: Array, width: int, height: int, view: View, spatial: bool) -> Camera:
+    """The camera that shows all of `points` (k, 3), their box centred, whole in the viewport.
+
+    In the plane z = 0 (not `spatial`) it looks straight from above, x right and y up.
+    """
+    rotation = orbit_rotation(view.azimuth, view.elevation) if spatial else np.eye(3)
+    seen = points @ rotation.T
+    low, high = seen.min(0), seen.max(0)
+    center = rotation.T @ ((low + high) / 2.0)
+    half = (high - low) / 2.0
+    scale = max(float(half[0]) / width, float(half[1]) / height, 1e-30) * MARGIN
+    if half[0] == half[1] == 0.0:
+        scale = 1.0 / min(width, height)  # a single point: any scale shows it
+    half_depth = max(float(np.linalg.norm(half)), 1e-30) * 2.0
+    scale /= view.zoom
+    center = center + rotation[0] * view.pan[0] + rotation[1] * view.pan[1]
+    return Camera(rotation, center, scale * width, scale * height, half_depth)

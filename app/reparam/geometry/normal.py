@@ -1,0 +1,55 @@
+"""Unit normals of the projected surface. Twin: shaders/lib/normal.glsl, same names."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .evaluate import evaluate, evaluate_derivatives
+
+Array = NDArray[np.float64]
+
+SINGULAR_SINE = 1e-5  # below this sine of the angle between p_u and p_v: look for the limit
+SINGULAR_STEP = 1e-3  # how far towards the patch's centre, in parameters
+
+
+def safe_normalize(vectors: Array) -> Array:
+    """Unit vectors (..., 3) without overflow; the zero vector stays zero."""
+    largest = np.abs(vectors).max(-1, keepdims=True)
+    scaled = vectors / np.where(largest > 0.0, largest, 1.0)
+    length = np.linalg.norm(scaled, axis=-1, keepdims=True)
+    return np.asarray(scaled / np.where(length > 0.0, length, 1.0))
+
+
+def projected_derivative(points: Array, derivatives: Array) -> Array:
+    """w times the derivative of X/w by the quotient rule, from (..., 4) points and derivatives."""
+    return np.asarray(
+        derivatives[..., :3] - derivatives[..., 3:] * (points[..., :3] / points[..., 3:])
+    )
+
+
+def cross_of_tangents(net: Array, u: ArrayLike, v: ArrayLike) -> Array:
+    """Cross product of the unit tangents along u and v; its length is the sine between them."""
+    points = evaluate(net, u, v)
+    along_u, along_v = evaluate_derivatives(net, u, v)
+    return np.cross(
+        safe_normalize(projected_derivative(points, along_u)),
+        safe_normalize(projected_derivative(points, along_v)),
+    )
+
+
+def surface_normal(net: Array, u: ArrayLike, v: ArrayLike) -> Array:
+    """p_u x p_v normalised (GL_AUTO_NORMAL), shape (..., 3).
+
+    Where it vanishes, at a pole or at a corner of r where p_u = -p_v, the normal a little
+    inside is taken: the limit instead of OpenGL's zero vector. Where there is none either
+    (all points collinear), (0, 0, 1).
+    """
+    u, v = np.asarray(u, dtype=np.float64), np.asarray(v, dtype=np.float64)
+    normal = cross_of_tangents(net, u, v)
+    singular = np.linalg.norm(normal, axis=-1, keepdims=True) <= SINGULAR_SINE
+    if singular.any():
+        inside = (t + SINGULAR_STEP * (0.5 - t) for t in (u, v))
+        normal = np.where(singular, cross_of_tangents(net, *inside), normal)
+    nowhere = ~normal.any(-1, keepdims=True)
+    return safe_normalize(np.where(nowhere, np.array([0.0, 0.0, 1.0]), normal))

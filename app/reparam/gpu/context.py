@@ -1,0 +1,74 @@
+"""OpenGL contexts, and what the one at hand can do."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass
+from typing import Any
+
+import moderngl
+
+from ..errors import GraphicsError
+from .diagnosis import explain
+
+MINIMUM = 330
+TESSELLATION = 400
+SOFTWARE = ("llvmpipe", "softpipe", "swrast", "swiftshader", "software", "gdi generic")
+
+
+@dataclass(frozen=True)
+class Capabilities:
+    """What an OpenGL context offers."""
+
+    version: int  # 330 is OpenGL 3.3
+    renderer: str
+    vendor: str
+    driver: str  # the version in the driver's own words
+    software: bool
+    tessellation: bool
+    samples: int
+    anisotropy: float
+    largest: int  # width and height of a texture or renderbuffer
+
+    def evaluator(self, wanted: str | None) -> str:
+        """The evaluator to use: the wanted one, else tessellation on a GPU that has it."""
+        if wanted == "tessellation" and not self.tessellation:
+            raise GraphicsError(
+                f"--evaluator tessellation: expected OpenGL 4.0, found {self.version / 100:.1f} "
+                f"({self.renderer}); --evaluator vertex needs only 3.3"
+            )
+        if wanted is not None:
+            return wanted
+        return "tessellation" if self.tessellation and not self.software else "vertex"
+
+
+def capabilities(ctx: moderngl.Context) -> Capabilities:
+    """Read off a live context."""
+    renderer = ctx.info["GL_RENDERER"]
+    return Capabilities(
+        version=ctx.version_code,
+        renderer=renderer,
+        vendor=ctx.info["GL_VENDOR"],
+        driver=ctx.info["GL_VERSION"],
+        software=any(name in renderer.lower() for name in SOFTWARE),
+        tessellation=ctx.version_code >= TESSELLATION,
+        samples=ctx.max_samples,
+        anisotropy=ctx.max_anisotropy,
+        largest=min(ctx.info["GL_MAX_TEXTURE_SIZE"], ctx.info["GL_MAX_RENDERBUFFER_SIZE"]),
+    )
+
+
+def create_headless() -> moderngl.Context:
+    """A context without a window: EGL on Linux, the system's own way elsewhere.
+
+    Raises GraphicsError with the line that mends it.
+    """
+    backend: dict[str, Any] = {"backend": "egl"} if sys.platform.startswith("linux") else {}
+    try:
+        ctx = moderngl.create_context(require=MINIMUM, standalone=True, **backend)
+    except Exception as error:  # moderngl raises bare Exception, and ImportError from glcontext
+        raise GraphicsError(explain(str(error))) from error
+    # Surfaceless EGL has no framebuffer of its own, and without one nothing is evaluated.
+    ctx.extra = ctx.framebuffer([ctx.renderbuffer((1, 1))])
+    ctx.extra.use()
+    return ctx

@@ -1,0 +1,106 @@
+"""The vertex evaluator: nets at lists of parameters, into buffers (evaluate.vert)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from .kept import Kept
+from .nets import net_texture
+from .programs import Programs, degree_defines
+
+Array = NDArray[np.float64]
+
+FLOATS = {False: 4, True: 7}  # a captured vertex: point, and with normals its normal
+
+
+def orders(net: Array) -> tuple[int, int]:
+    """Degrees in u and v of a net (..., m, n, 4)."""
+    return net.shape[-3] - 1, net.shape[-2] - 1
+
+
+def patch_count(net: Array) -> int:
+    """1 for a net (m, n, 4), else the length of its first axis."""
+    return net.shape[0] if net.ndim == 4 else 1
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """A list of (u, 1-u, v, 1-v) on the GPU."""
+
+    buffer: moderngl.Buffer
+    count: int
+
+
+class Evaluation:
+    """Evaluates nets by transform feedback. Owns the nets' textures and the parameter lists."""
+
+    def __init__(self, ctx: moderngl.Context, programs: Programs) -> None:
+        self._ctx = ctx
+        self._programs = programs
+        self._textures: Kept[moderngl.Texture] = Kept(lambda texture: texture.release())
+        self._parameters: Kept[Parameters] = Kept(lambda p: p.buffer.release(), frames=64)
+
+    def texture(self, net: Array) -> moderngl.Texture:
+        """The net on the GPU; uploaded once for each array."""
+        return self._textures.get(net, None, lambda: net_texture(self._ctx, net))
+
+    def run(
+        self,
+        net: Array,
+        parameters: Array,
+        patches: Sequence[int] | range,
+        *,
+        normals: bool = False,
+    ) -> moderngl.Buffer:
+        """Points, and normals if asked, of consecutive patches at the parameters (k, 4).
+
+        The buffer holds float32 (patches, k, 4), or (patches, k, 7) with normals; a net of one
+        patch answers for all of them.
+        """
+        program = self._programs.get(
+            "evaluate.vert",
+            defines=degree_defines(**{"": orders(net)}) | ({"NORMALS": 1} if normals else {}),
+            varyings=("point", "normal") if normals else ("point",),
+        )
+        shared = patch_count(net) == 1
+        self.texture(net).use(0)
+        program.set(
+            net=0,
+            degree=orders(net),
+            first_patch=0 if shared else patches[0],
+            patch_stride=0 if shared else 1,
+        )
+        where = self._upload(parameters)
+        vertices = self._ctx.vertex_array(program.ready(), [(where.buffer, "4f", "parameters")])
+        size = len(patches) * where.count * FLOATS[normals] * 4
+        captured = self._ctx.buffer(reserve=size)
+        vertices.transform(captured, moderngl.POINTS, where.count, instances=len(patches))
+        vertices.release()
+        return captured
+
+    def read(self, net: Array, parameters: Array, *, normals: bool = False) -> NDArray[np.float32]:
+        """The same for all patches, handed back as an array (patches, k, 4 or 7)."""
+        count = patch_count(net)
+        captured = self.run(net, parameters, range(count), normals=normals)
+        values = np.frombuffer(captured.read(), np.float32)
+        captured.release()
+        return values.reshape(count, len(parameters), FLOATS[normals])
+
+    def _upload(self, parameters: Array) -> Parameters:
+        return self._parameters.get(
+            parameters,
+            None,
+            lambda: Parameters(
+                self._ctx.buffer(parameters.astype(np.float32).tobytes()), len(parameters)
+            ),
+        )
+
+    def sweep(self) -> None:
+        """End of a frame."""
+        self._textures.sweep()
+        self._parameters.sweep()

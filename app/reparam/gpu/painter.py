@@ -1,0 +1,197 @@
+"""Draws a figure into a target: the one frame that window and snapshot share."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import GraphicsError
+from ..geometry.camera import Camera, View, frame
+from ..scenes import palette
+from ..scenes.display import Display
+from ..scenes.layers import ControlNet, Figure, IsoLines, Label, Layer, Patches, Space
+from .context import Capabilities, capabilities
+from .evaluation import Evaluation
+from .labels import Labels
+from .programs import Programs
+from .strokes import Strokes
+from .surfaces import Surfaces
+from .targets import Target
+
+Array = NDArray[np.float64]
+
+UNITS = 512.0  # figure units along the shorter side of a picture
+CAPTION_SIZE = 17.0
+CAPTION_LINE = 23.0
+PADDING = 10.0
+
+
+@dataclass(frozen=True)
+class Region:
+    """A space's part of the picture, in pixels from the lower left."""
+
+    left: int
+    bottom: int
+    width: int
+    height: int
+
+
+@dataclass(frozen=True)
+class Panel:
+    """A space with where it stands and how it is seen."""
+
+    space: Space
+    region: Region
+    camera: Camera
+
+
+def arrange(
+    figure: Figure, size: tuple[int, int], views: Mapping[str, View], plain: bool
+) -> list[Panel]:
+    """The spaces side by side (one above another in an upright picture), above the caption."""
+    width, height = size
+    unit = min(size) / UNITS
+    foot = 0 if plain else round((len(figure.caption) * CAPTION_LINE + PADDING) * unit)
+    foot = min(foot, height - 1)
+    count = len(figure.spaces)
+    across = width >= height - foot
+    panels = []
+    for i, space in enumerate(figure.spaces):
+        if across:
+            left, right = width * i // count, width * (i + 1) // count
+            region = Region(left, foot, max(1, right - left), height - foot)
+        else:
+            low = foot + (height - foot) * (count - 1 - i) // count
+            high = foot + (height - foot) * (count - i) // count
+            region = Region(0, low, width, max(1, high - low))
+        points = extent(space)
+        view = views.get(space.name, View())
+        camera = frame(points, region.width, region.height, view, space.spatial)
+        panels.append(Panel(space, region, camera))
+    return panels
+
+
+def extent(space: Space) -> Array:
+    """Points (k, 3) that the space's viewport must show."""
+    if len(space.bounds) != 2:
+        return space.bounds
+    corners = np.stack(np.meshgrid(*space.bounds.T, indexing="ij"), -1)
+    return np.asarray(corners.reshape(-1, 3))
+
+
+class Painter:
+    """All that a context holds to draw figures."""
+
+    def __init__(self, ctx: moderngl.Context) -> None:
+        self.ctx = ctx
+        self.capabilities: Capabilities = capabilities(ctx)
+        self.programs = Programs(ctx)
+        self.evaluation = Evaluation(ctx, self.programs)
+        self.surfaces = Surfaces(ctx, self.programs, self.evaluation, self.capabilities)
+        self.strokes = Strokes(ctx, self.programs, self.evaluation)
+        self.labels = Labels(ctx, self.programs)
+
+    def draw(
+        self,
+        figure: Figure,
+        target: Target,
+        display: Display,
+        *,
+        evaluator: str | None = None,
+        views: Mapping[str, View] | None = None,
+        plain: bool = False,
+    ) -> list[Panel]:
+        """The figure, or with `plain` its subject's patches alone on a saturated ground.
+
+        Raises GraphicsError if OpenGL reports an error, or has not the evaluator asked for.
+        """
+        chosen = self.capabilities.evaluator(evaluator)
+        figure = figure.plain() if plain else figure
+        panels = arrange(figure, target.size, views or {}, plain)
+        framebuffer = target.framebuffer
+        framebuffer.use()
+        ground = palette.PLAIN_GROUND if plain else palette.GROUND
+        framebuffer.viewport = (0, 0, *target.size)
+        framebuffer.clear(*ground, 1.0, depth=1.0)
+        self.ctx.enable(moderngl.BLEND)
+        self.ctx.blend_func = (
+            moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA, moderngl.ONE, moderngl.ONE
+        )  # fmt: skip
+        unit = min(target.size) / UNITS
+        for panel in panels:
+            self._draw_space(panel, target, display, chosen, unit)
+        if not plain:
+            self._draw_caption(figure, target.size, unit)
+        self._end_frame()
+        return panels
+
+    def _draw_space(
+        self, panel: Panel, target: Target, display: Display, evaluator: str, unit: float
+    ) -> None:
+        region = panel.region
+        box = (region.left, region.bottom, region.width, region.height)
+        self.ctx.viewport = box
+        self.ctx.scissor = box
+        if panel.space.spatial:
+            self.ctx.enable(moderngl.DEPTH_TEST)
+        for layer in panel.space.layers:
+            self._draw_layer(layer, panel, display, evaluator, unit)
+        self.ctx.disable(moderngl.DEPTH_TEST)
+        self.ctx.scissor = None
+        self.ctx.viewport = (0, 0, *target.size)
+        for layer in panel.space.layers:
+            if isinstance(layer, Label):
+                self._draw_label(layer, panel, target.size, unit)
+
+    def _draw_layer(
+        self, layer: Layer, panel: Panel, display: Display, evaluator: str, unit: float
+    ) -> None:
+        camera, viewport = panel.camera, (panel.region.width, panel.region.height)
+        match layer:
+            case Patches():
+                self.surfaces.draw(layer, camera, evaluator, display.level)
+                if display.wireframe:
+                    nearer = camera.nearer(1e-3)
+                    self.surfaces.draw_wireframe(
+                        layer, nearer, evaluator, display.level, palette.INK
+                    )
+            case IsoLines():
+                self.strokes.draw_iso_lines(layer, camera, viewport, unit)
+            case ControlNet() if display.net:
+                self.strokes.draw_control_net(layer, camera, viewport, unit)
+
+    def _draw_label(self, label: Label, panel: Panel, size: tuple[int, int], unit: float) -> None:
+        region = panel.region
+        x, y = panel.camera.pixels(np.array(label.at), region.width, region.height)
+        at = (
+            float(x) + region.left + label.offset[0] * unit,
+            float(y) + region.bottom + label.offset[1] * unit,
+        )
+        self.labels.text(
+            label.text, at, size, label.size * unit, label.color, label.anchor, label.italic,
+            widest=0.96 * region.width,
+        )  # fmt: skip
+
+    def _draw_caption(self, figure: Figure, size: tuple[int, int], unit: float) -> None:
+        for i, line in enumerate(reversed(figure.caption)):
+            at = (size[0] / 2, (PADDING + (i + 0.5) * CAPTION_LINE) * unit)
+            self.labels.text(
+                line, at, size, CAPTION_SIZE * unit, palette.INK, widest=0.96 * size[0]
+            )
+
+    def _end_frame(self) -> None:
+        for part in (self.evaluation, self.surfaces, self.strokes):
+            part.sweep()
+        error = self.ctx.error
+        if error != "GL_NO_ERROR":
+            raise GraphicsError(f"OpenGL: expected no error after drawing, found {error}")
+
+    def reload_shaders(self) -> None:
+        """Read all shaders anew; if one fails, keep the last good ones and raise GraphicsError."""
+        self.programs.reload()
+        self.surfaces.forget()
+        self.strokes.forget()

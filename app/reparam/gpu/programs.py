@@ -1,0 +1,154 @@
+"""Shader programs: assembled from shaders/, specialised by #define, compiled once, reloadable."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Any
+
+import moderngl
+
+from ..assets import ShaderSource, expand_shader
+from ..errors import GraphicsError
+from ..geometry.net import MAX_ORDER
+from ..geometry.normal import SINGULAR_SINE, SINGULAR_STEP
+from .nets import NET_WIDTH
+
+STAGES = {
+    ".vert": "vertex_shader",
+    ".tesc": "tess_control_shader",
+    ".tese": "tess_evaluation_shader",
+    ".frag": "fragment_shader",
+}
+SPECIALISED_DEGREE = 8  # up to here the degree is a constant of the program
+
+# `precise` keeps a compiler from contracting a*b + c, so that edges read from both sides agree.
+VERSIONS = {
+    330: "#version 330 core\n#extension GL_ARB_gpu_shader5 : enable\n"
+    "#ifdef GL_ARB_gpu_shader5\n#define PRECISE precise\n#else\n#define PRECISE\n#endif\n",
+    400: "#version 400 core\n#define PRECISE precise\n",
+}
+
+Defines = Mapping[str, int | float]
+
+
+def degree_defines(**degrees: tuple[int, int]) -> dict[str, int]:
+    """Defines for nets by prefix: DEGREE_U ..., or GENERIC_DEGREE where one is above 8."""
+    highest = max(max(pair) for pair in degrees.values())
+    if highest > SPECIALISED_DEGREE:
+        return {"GENERIC_DEGREE": 1, "MAX_ORDER": MAX_ORDER}
+    defines = {"MAX_ORDER": highest + 1}
+    for prefix, (u, v) in degrees.items():
+        defines |= {f"{prefix}DEGREE_U": u, f"{prefix}DEGREE_V": v}
+    return defines
+
+
+def stage_source(name: str, defines: Defines, version: int) -> ShaderSource:
+    """shaders/NAME ready to compile."""
+    constants = {
+        "NET_WIDTH": NET_WIDTH,
+        "SINGULAR_SINE": SINGULAR_SINE,
+        "SINGULAR_STEP": SINGULAR_STEP,
+        **defines,
+    }
+    text = "".join(f"#define {key} {value}\n" for key, value in constants.items())
+    return expand_shader(name, VERSIONS[version] + text)
+
+
+class Program:
+    """A compiled program whose uniforms are all set before it draws."""
+
+    def __init__(
+        self, gl: moderngl.Program, declared: frozenset[str], defines: frozenset[str]
+    ) -> None:
+        self.gl = gl
+        self.defines = defines
+        self._declared = declared
+        members = {name: gl[name] for name in gl}
+        self._active = {n: m for n, m in members.items() if isinstance(m, moderngl.Uniform)}
+        self._unset = set(self._active)
+
+    def set(self, **values: Any) -> Program:
+        """Give uniforms their values. One that the compiler dropped is passed over."""
+        for name, value in values.items():
+            if name in self._active:
+                uniform = self._active[name]
+                uniform.write(value) if isinstance(value, bytes) else setattr(
+                    uniform, "value", value
+                )
+                self._unset.discard(name)
+            elif name not in self._declared:
+                raise KeyError(f"no uniform {name} in this program")
+        return self
+
+    def ready(self) -> moderngl.Program:
+        """The program, or AssertionError if a uniform was never set (it would silently be 0)."""
+        assert not self._unset, f"uniforms never set: {', '.join(sorted(self._unset))}"
+        return self.gl
+
+
+class Programs:
+    """All programs of a context, by stages and defines. `generation` counts successful reloads."""
+
+    def __init__(self, ctx: moderngl.Context) -> None:
+        self._ctx = ctx
+        self._cache: dict[tuple[Any, ...], Program] = {}
+        self.generation = 0
+
+    def get(
+        self, *stages: str, defines: Defines | None = None, varyings: tuple[str, ...] = ()
+    ) -> Program:
+        """The program of these stages (file names in shaders/), compiled at first use.
+
+        `varyings` are captured by transform feedback. Raises GraphicsError naming file:line.
+        """
+        key = (stages, tuple(sorted((defines or {}).items())), varyings)
+        if key not in self._cache:
+            self._cache[key] = self._compile(*key)
+        return self._cache[key]
+
+    def reload(self) -> None:
+        """Compile every program anew from the files. If one fails, all stay as they were.
+
+        Raises GraphicsError naming file:line.
+        """
+        fresh = {key: self._compile(*key) for key in self._cache}
+        for old in self._cache.values():
+            old.gl.release()
+        self._cache = fresh
+        self.generation += 1
+
+    def _compile(
+        self,
+        stages: tuple[str, ...],
+        defines: tuple[tuple[str, int | float], ...],
+        varyings: tuple[str, ...],
+    ) -> Program:
+        version = 400 if any(name.endswith(".tese") for name in stages) else 330
+        sources = {
+            STAGES["." + name.rsplit(".", 1)[1]]: stage_source(name, dict(defines), version)
+            for name in stages
+        }
+        texts = {stage: source.text for stage, source in sources.items()}
+        try:
+            gl = self._ctx.program(**texts, varyings=varyings)  # type: ignore[arg-type]
+        except moderngl.Error as error:
+            raise GraphicsError(locate(str(error), sources)) from error
+        declared = re.findall(r"uniform\s+\w+\s+(\w+)", "".join(texts.values()))
+        return Program(gl, frozenset(declared), frozenset(dict(defines)))
+
+
+# Mesa: `0:12(5): error: ...`   NVIDIA: `0(12) : error C0000: ...`   others: `ERROR: 0:12: ...`
+_PLACE = re.compile(r"(?:ERROR:\s*)?(\d+)(?::(\d+)|\((\d+)\))[^:]*:\s*(.+)")
+
+
+def locate(log: str, sources: Mapping[str, ShaderSource]) -> str:
+    """A compiler's log as one line, `file:line: message`, in terms of the files in shaders/."""
+    stage = next((name for name in sources if name in log), None)
+    place = _PLACE.search(log)
+    if stage is None or place is None:
+        return "shader: " + " ".join(log.split())
+    files = sources[stage].files
+    number, line = int(place[1]), place[2] or place[3]
+    name = files[number].name if number < len(files) else stage
+    return f"{name}:{line}: {place[4].strip()}"

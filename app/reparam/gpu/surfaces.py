@@ -1,0 +1,223 @@
+"""Patches layers: evaluated and drawn, by the vertex evaluator or by tessellation."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import GraphicsError
+from ..geometry.camera import Camera
+from ..geometry.evaluate import grid_parameters
+from ..scenes.layers import Color, Patches
+from .context import Capabilities
+from .evaluation import FLOATS, Evaluation, orders, patch_count
+from .kept import Kept
+from .pictures import Pictures
+from .programs import Program, Programs, degree_defines
+
+Array = NDArray[np.float64]
+
+BATCH_VERTICES = 1 << 18  # evaluated and drawn at a time
+KEPT_BYTES = 1 << 29  # a layer that needs more is evaluated anew for each frame
+HARDWARE_LEVEL = 64  # what every OpenGL 4 promises; above, a patch is drawn in tiles
+SOFTWARE_CHUNK = 64  # llvmpipe's tessellator is quadratic in the patches of one draw
+
+grid = lru_cache(maxsize=16)(grid_parameters)
+
+
+@dataclass(frozen=True)
+class Batch:
+    """Consecutive patches, evaluated: a buffer of vertices."""
+
+    patches: range
+    vertices: moderngl.Buffer
+
+
+class Surfaces:
+    """Draws Patches layers into the current framebuffer."""
+
+    def __init__(
+        self,
+        ctx: moderngl.Context,
+        programs: Programs,
+        evaluation: Evaluation,
+        capabilities: Capabilities,
+    ) -> None:
+        self._ctx = ctx
+        self._programs = programs
+        self._evaluation = evaluation
+        self._chunk = SOFTWARE_CHUNK if capabilities.software else 1 << 20
+        self.pictures = Pictures(ctx, capabilities)
+        self._batches: Kept[list[Batch]] = Kept(_release)
+        self._indices: dict[tuple[int, int], moderngl.Buffer] = {}
+
+    def draw(self, layer: Patches, camera: Camera, evaluator: str, level: int) -> None:
+        """The layer as its picture, colour and light say."""
+        path = {"vertex": self._draw_meshes, "tessellation": self._draw_tessellated}[evaluator]
+        path(layer, camera, level, layer.color, False)
+
+    def draw_wireframe(
+        self, layer: Patches, camera: Camera, evaluator: str, level: int, color: Color
+    ) -> None:
+        """The edges of the triangles that `draw` draws."""
+        path = {"vertex": self._draw_meshes, "tessellation": self._draw_tessellated}[evaluator]
+        self._ctx.wireframe = True
+        path(layer, camera, level, color, True)
+        self._ctx.wireframe = False
+
+    def sweep(self) -> None:
+        """End of a frame."""
+        self._batches.sweep()
+
+    def forget(self) -> None:
+        """Drop what older shaders evaluated."""
+        self._batches.clear()
+
+    def _defines(self, layer: Patches, bare: bool) -> dict[str, int]:
+        defines = {}
+        if layer.texture is not None and not bare:
+            defines["TEXTURED"] = 1
+            defines |= self.pictures.defines(layer.texture.picture)
+        if layer.lit and not bare:
+            defines["LIT"] = 1
+        return defines
+
+    def _set_common(self, program: Program, layer: Patches, camera: Camera, color: Color) -> None:
+        program.set(
+            clip_from_model=camera.clip_from_model().T.astype(np.float32).tobytes(),
+            color=(*color, 1.0),
+        )
+        if "LIT" in program.defines:
+            program.set(view_from_model=camera.rotation.T.astype(np.float32).tobytes())
+        if "TEXTURED" in program.defines:
+            assert layer.texture is not None
+            picture = layer.texture.picture
+            scale, offset = self.pictures.use(picture, unit=2)
+            reach = 0.75 if picture.filter == "smooth" else 0.0
+            program.set(image=2, image_from_map=(scale, scale, offset, offset), reach=reach)
+
+    # The vertex evaluator -------------------------------------------------------------------
+
+    def _draw_meshes(
+        self, layer: Patches, camera: Camera, level: int, color: Color, bare: bool
+    ) -> None:
+        defines = self._defines(layer, bare)
+        texture_net = layer.texture.net if layer.texture and not bare else None
+        positions = self._evaluated(layer.net, level, patch_count(layer.net), layer.lit)
+        maps = (
+            self._evaluated(texture_net, level, patch_count(layer.net), False)
+            if texture_net is not None
+            else None
+        )
+        program = self._programs.get("mesh.vert", "patch.frag", defines=defines)
+        for batch in positions:
+            points = "4f 3f" if "LIT" in defines else "4f 12x" if layer.lit else "4f"
+            names = ("point", "normal") if "LIT" in defines else ("point",)
+            content = [(batch.vertices, points, *names)]
+            if maps is not None:
+                content.append((next(maps).vertices, "4f", "map"))
+            self._set_common(program, layer, camera, color)
+            if "TEXTURED" in defines:
+                program.set(level=level)
+            vertices = self._ctx.vertex_array(
+                program.ready(), content, self._triangles(level, len(batch.patches))
+            )
+            vertices.render(vertices=6 * level * level * len(batch.patches))
+            vertices.release()
+
+    def _evaluated(self, net: Array, level: int, count: int, normals: bool) -> Iterator[Batch]:
+        """The net's batches: kept while the same net is drawn, or made one by one if too large."""
+        if count * (level + 1) ** 2 * FLOATS[normals] * 4 <= KEPT_BYTES:
+            key = (level, count, normals)
+            yield from self._batches.get(net, key, lambda: list(self._evaluate(net, *key)))
+            return
+        for batch in self._evaluate(net, level, count, normals):
+            yield batch
+            batch.vertices.release()
+
+    def _evaluate(self, net: Array, level: int, count: int, normals: bool) -> Iterator[Batch]:
+        step = max(1, BATCH_VERTICES // (level + 1) ** 2)
+        for first in range(0, count, step):
+            patches = range(first, min(first + step, count))
+            captured = self._evaluation.run(net, grid(level), patches, normals=normals)
+            yield Batch(patches, captured)
+
+    def _triangles(self, level: int, patches: int) -> moderngl.Buffer:
+        """Indices of two triangles a cell, counter-clockwise in (u,v), as the normal has it."""
+        room = 1 << (patches - 1).bit_length()
+        key = (level, room)
+        if key not in self._indices:
+            self._indices[key] = self._ctx.buffer(triangle_indices(level, room).tobytes())
+        return self._indices[key]
+
+    # Tessellation ---------------------------------------------------------------------------
+
+    def _draw_tessellated(
+        self, layer: Patches, camera: Camera, level: int, color: Color, bare: bool
+    ) -> None:
+        defines = self._defines(layer, bare)
+        nets = {"POSITION_": orders(layer.net)}
+        if "TEXTURED" in defines:
+            assert layer.texture is not None
+            nets["TEXTURE_"] = orders(layer.texture.net)
+        program = self._programs.get(
+            "patch.tess.vert",
+            "patch.tesc",
+            "patch.tese",
+            "patch.frag",
+            defines=defines | degree_defines(**nets),
+        )
+        self._evaluation.texture(layer.net).use(0)
+        program.set(position_net=0, position_degree=orders(layer.net), level=level)
+        if "TEXTURED" in defines:
+            assert layer.texture is not None
+            self._evaluation.texture(layer.texture.net).use(1)
+            program.set(
+                texture_net=1,
+                texture_degree=orders(layer.texture.net),
+                texture_stride=0 if patch_count(layer.texture.net) == 1 else 1,
+            )
+        self._set_common(program, layer, camera, color)
+        self.tessellate(program, patch_count(layer.net), level)
+
+    def tessellate(self, program: Program, count: int, level: int) -> None:
+        """Draw all patches with a tessellation program, tile by tile and chunk by chunk."""
+        numbers = self._ctx.buffer(np.arange(count, dtype=np.int32).tobytes())
+        self._ctx.patch_vertices = 1
+        for tile in tiles(level):
+            program.set(tile=tile)
+            vertices = self._ctx.vertex_array(program.ready(), [(numbers, "1i", "patch_index")])
+            for first in range(0, count, self._chunk):
+                vertices.render(
+                    moderngl.PATCHES, vertices=min(self._chunk, count - first), first=first
+                )
+            vertices.release()
+        numbers.release()
+
+
+def _release(batches: list[Batch]) -> None:
+    for batch in batches:
+        batch.vertices.release()
+
+
+def triangle_indices(level: int, patches: int) -> NDArray[np.int32]:
+    """Vertex numbers (patches, level, level, 6) of the grid's triangles."""
+    stride = (level + 1) ** 2
+    if patches * stride >= 1 << 31:
+        raise GraphicsError(f"expected fewer than 2^31 vertices, found {patches * stride}")
+    corner = np.arange(stride, dtype=np.int32).reshape(level + 1, level + 1)
+    a, b, c, d = corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:]
+    cells = np.stack([a, b, c, a, c, d], -1)
+    return cells + (np.arange(patches, dtype=np.int32) * stride)[:, None, None, None]
+
+
+def tiles(level: int) -> list[tuple[int, int, int, int]]:
+    """(first step in u, in v, steps in u, in v) of the tiles that a level is drawn in."""
+    starts = range(0, level, HARDWARE_LEVEL)
+    steps = {start: min(HARDWARE_LEVEL, level - start) for start in starts}
+    return [(u, v, steps[u], steps[v]) for u in starts for v in starts]

@@ -1,0 +1,1 @@
+"""Scenes: pictures as data. Typed parameters and nets in, frozen layers and claims out."""

@@ -1,0 +1,18 @@
+"""How any scene is drawn: the settings that all scenes share."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from .parameters import Range
+
+
+@dataclass(frozen=True)
+class Display:
+    """Settings shared by all scenes, set like a scene's own parameters."""
+
+    level: Annotated[int, Range(1, 1024), "tessellation level: steps in u and in v"] = 32
+    wireframe: Annotated[bool, "the triangles' edges over the surface"] = False
+    net: Annotated[bool, "the control net"] = False
+    samples: Annotated[int, Range(0, 16), "samples a pixel; 0: the most up to 8"] = 0

@@ -1,0 +1,1 @@
+"""One module a scene, found by its name."""

@@ -1,0 +1,142 @@
+"""What a scene is made of: frozen layers in named spaces. Plain data, no OpenGL.
+
+A layer's arrays are made read-only, for the GPU keeps what it made of an array as long as the
+same object comes back.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..geometry.evaluate import sample_surface
+
+Array = NDArray[np.float64]
+Color = tuple[float, float, float]
+
+
+def _freeze(layer: object) -> None:
+    for field in fields(layer):  # type: ignore[arg-type]
+        value = getattr(layer, field.name)
+        if isinstance(value, np.ndarray):
+            value.setflags(write=False)
+
+
+@dataclass(frozen=True)
+class Picture:
+    """What a texture map looks up, and where: (s, t) * scale + offset, the whole picture being
+    [0,1]^2 with (0,0) at its lower left."""
+
+    source: str = "checkerboard"  # a name in textures/, or a file
+    scale: float = 0.5
+    offset: float = 0.5
+    wrap: Literal["repeat", "mirror"] = "repeat"
+    filter: Literal["smooth", "nearest"] = "smooth"
+
+
+@dataclass(frozen=True)
+class Texture:
+    """A second net, (m, n, 4) for all patches or (patches, m, n, 4), with the picture it looks up.
+
+    GL_MAP2_TEXTURE_COORD: evaluated at the vertices by the same evaluator as the position.
+    """
+
+    net: Array
+    picture: Picture
+
+    def __post_init__(self) -> None:
+        _freeze(self)
+
+
+@dataclass(frozen=True)
+class Patches:
+    """Tensor-product Bezier patches of one order: a net (m, n, 4) or (patches, m, n, 4)."""
+
+    net: Array
+    texture: Texture | None = None
+    color: Color = (1.0, 1.0, 1.0)
+    lit: bool = False
+
+    def __post_init__(self) -> None:
+        _freeze(self)
+
+
+@dataclass(frozen=True)
+class IsoLines:
+    """The curves u = const and v = const of patches, as wide as `width` (in figure units)."""
+
+    net: Array
+    u: tuple[float, ...] = ()
+    v: tuple[float, ...] = ()
+    color: Color = (0.0, 0.0, 0.0)
+    width: float = 1.0
+    span: tuple[float, float] = (0.0, 1.0)  # of the other parameter; beyond [0,1] extrapolates
+    arrow: bool = False
+
+    def __post_init__(self) -> None:
+        _freeze(self)
+
+
+@dataclass(frozen=True)
+class ControlNet:
+    """The control points of patches and the legs between them; drawn when the user asks."""
+
+    net: Array
+    color: Color = (0.0, 0.0, 0.0)
+    width: float = 1.0
+    dot: float = 3.0
+
+    def __post_init__(self) -> None:
+        _freeze(self)
+
+
+@dataclass(frozen=True)
+class Label:
+    """Text at a point of its space, moved by `offset` (in figure units, y up)."""
+
+    text: str
+    at: tuple[float, float, float]
+    offset: tuple[float, float] = (0.0, 0.0)
+    anchor: tuple[float, float] = (0.5, 0.5)  # the point of the text's box put there: 0..1, y up
+    size: float = 16.0
+    color: Color = (0.13, 0.13, 0.13)
+    italic: bool = False
+
+
+Layer = Patches | IsoLines | ControlNet | Label
+
+
+@dataclass(frozen=True)
+class Space:
+    """One viewport with a coordinate system of its own: domain, texture, physical, plot."""
+
+    name: str
+    bounds: Array  # (2, 3) smallest and largest coordinates, or (k, 3) points, to be seen
+    layers: tuple[Layer, ...]
+    spatial: bool = False  # orbited, with depth; else the plane z = 0 seen from above
+
+    def __post_init__(self) -> None:
+        _freeze(self)
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A picture: spaces side by side, the last one showing the subject, and a caption beneath."""
+
+    spaces: tuple[Space, ...]
+    caption: tuple[str, ...] = ()
+
+    def plain(self) -> Figure:
+        """The subject's patches alone, framed by themselves: no labels, nets, lines or caption."""
+        subject = self.spaces[-1]
+        patches = tuple(layer for layer in subject.layers if isinstance(layer, Patches))
+        points = np.concatenate([sample_surface(layer.net) for layer in patches])
+        return Figure((replace(subject, layers=patches, bounds=points),))
+
+
+def plane(x0: float, y0: float, x1: float, y1: float) -> Array:
+    """Bounds of a rectangle in the plane z = 0."""
+    return np.array([[x0, y0, 0.0], [x1, y1, 0.0]])

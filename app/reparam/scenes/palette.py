@@ -1,0 +1,22 @@
+"""The Okabe-Ito colours, safe for the colour-blind, each with one meaning throughout."""
+
+from __future__ import annotations
+
+from .layers import Color
+
+
+def rgb(hexadecimal: str) -> Color:
+    """(red, green, blue) in 0..1 from "RRGGBB"."""
+    red, green, blue = bytes.fromhex(hexadecimal)
+    return red / 255, green / 255, blue / 255
+
+
+INK = rgb("222222")
+GROUND = rgb("FFFFFF")
+DOMAIN = rgb("E8F1F8")  # the parameter square
+IMAGE = rgb("FBF3E2")  # its image
+ALONG_U = rgb("0072B2")  # blue: where u runs
+ALONG_V = rgb("D55E00")  # vermillion: where v runs
+CONTROL_NET = rgb("222222")
+SURFACE = rgb("56B4E9")  # sky blue: a surface without a picture
+PLAIN_GROUND = rgb("FF00FF")  # behind a plain picture: far from both checker colours and mixtures

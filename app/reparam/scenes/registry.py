@@ -1,0 +1,93 @@
+"""Scenes: decorated functions of typed parameters, one module a scene in scenes/figures.
+
+A new file there, with a function of the module's name, is a new entry in the viewer, in
+`reparam list`, in `--set`, in the golden-picture test and in the gallery.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from ..errors import UsageError
+from .claims import Claim
+from .layers import Figure
+from .parameters import Parameter, parameters_of
+
+Claims = Callable[[], Iterator[Claim]]
+
+
+@dataclass
+class Scene:
+    """A named, parameterised picture."""
+
+    name: str
+    title: str
+    build: Callable[..., Figure]
+    figure: int | None = None  # of the note: the key that shows it
+    animates: str | None = None  # the parameter that Space moves to and fro
+    opens_files: bool = False  # takes a Body; shown by naming a file
+    plates: tuple[tuple[str, ...], ...] = ((),)  # assignments of the pictures worth keeping
+    _claims: Claims = field(default=lambda: iter(()))
+
+    @cached_property
+    def parameters(self) -> dict[str, Parameter]:
+        """Its parameters by name, in the order of its signature."""
+        return parameters_of(self.build)
+
+    def __call__(self, values: Mapping[str, Any] | None = None) -> Figure:
+        """The picture for these values, defaults for the others."""
+        return self.build(**(values or {}))
+
+    def claims(self, function: Claims) -> Claims:
+        """Decorator: the function that yields this scene's claims."""
+        self._claims = function
+        return function
+
+    def claimed(self) -> Iterator[Claim]:
+        """Its claims, computed when asked for."""
+        return self._claims()
+
+
+def scene(
+    title: str,
+    *,
+    figure: int | None = None,
+    animates: str | None = None,
+    opens_files: bool = False,
+    plates: tuple[tuple[str, ...], ...] = ((),),
+) -> Callable[[Callable[..., Figure]], Scene]:
+    """Decorator: the function becomes the scene of its name."""
+
+    def register(build: Callable[..., Figure]) -> Scene:
+        return Scene(build.__name__, title, build, figure, animates, opens_files, plates)
+
+    return register
+
+
+FILE_SCENE = "surface"
+
+
+def scene_names() -> list[str]:
+    """All scenes but the one that opens files, without importing any."""
+    files = (Path(__file__).parent / "figures").glob("*.py")
+    names = {file.stem for file in files} - {"__init__", FILE_SCENE}
+    return sorted(names)
+
+
+def load_scene(name: str) -> Scene:
+    """The scene of that name; imports its module alone. Raises UsageError for an unknown name."""
+    if name not in (*scene_names(), FILE_SCENE):
+        near = difflib.get_close_matches(name, scene_names(), 1)
+        meant = f"; did you mean {near[0]}?" if near else ""
+        raise UsageError(
+            f"expected a scene ({', '.join(scene_names())}) or a .bv file, found {name!r}{meant}"
+        )
+    found = getattr(import_module(f"{__package__}.figures.{name}"), name)
+    assert isinstance(found, Scene), f"scenes/figures/{name}.py defines no scene {name}"
+    return found

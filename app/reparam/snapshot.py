@@ -1,0 +1,50 @@
+"""The headless host: a subject in, a picture out."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .gpu.context import create_headless
+from .gpu.painter import Painter
+from .gpu.targets import Target
+from .subject import Subject, open_subject
+
+
+class Studio:
+    """A headless context that draws; `picture` makes it a claim's Measure.
+
+    Raises GraphicsError with the line that mends it where OpenGL does not start.
+    """
+
+    def __init__(self, evaluator: str | None = None) -> None:
+        self.ctx = create_headless()
+        self.painter = Painter(self.ctx)
+        self.evaluator = evaluator
+
+    def draw(
+        self, subject: Subject, size: tuple[int, int], *, plain: bool = False
+    ) -> NDArray[np.uint8]:
+        """The subject as (height, width, 3), top row first."""
+        display = subject.display
+        target = Target(self.ctx, size, display.samples, self.painter.capabilities)
+        try:
+            figure = subject.figure()
+            self.painter.draw(figure, target, display, evaluator=self.evaluator, plain=plain)
+            return target.pixels()
+        finally:
+            self.ctx.extra.use()
+            target.release()
+
+    def picture(self, scene: str, size: tuple[int, int], **values: Any) -> NDArray[np.uint8]:
+        """A scene drawn plain; `values` are its parameters and the display's."""
+        subject = open_subject(scene)
+        for name, value in values.items():
+            subject = subject.changed(name, value)
+        return self.draw(subject, size, plain=True)
+
+    def warnings(self) -> list[str]:
+        """What could not be had and was replaced: pictures that could not be read."""
+        return self.painter.surfaces.pictures.warnings

@@ -1,0 +1,78 @@
+"""What a host shows: a scene or the user's file, with the values of its parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from .errors import UsageError
+from .scenes.display import Display
+from .scenes.layers import Figure
+from .scenes.parameters import Parameter, find, parameters_of
+from .scenes.registry import FILE_SCENE, Scene, load_scene, scene_names
+
+DISPLAY = parameters_of(Display)
+
+
+@dataclass(frozen=True)
+class Subject:
+    """State is the parameters: a scene, the values of its parameters, and how it is displayed."""
+
+    scene: Scene
+    values: Mapping[str, Any]
+    display: Display = field(default_factory=Display)
+    data: Mapping[str, Any] = field(default_factory=dict)  # what has no text form: a file's body
+    title: str = ""
+
+    def figure(self) -> Figure:
+        """The picture for these values."""
+        return self.scene({**self.values, **self.data})
+
+    def parameters(self) -> dict[str, Parameter]:
+        """The scene's parameters, then the display's."""
+        return {**self.scene.parameters, **DISPLAY}
+
+    def value(self, name: str) -> Any:
+        """The present value of a parameter."""
+        return self.values[name] if name in self.values else getattr(self.display, name)
+
+    def changed(self, name: str, value: Any) -> Subject:
+        """The same with one parameter changed. Raises ValueError if the value is not allowed."""
+        value = find(self.parameters(), name).check(value)
+        if name in self.values:
+            return replace(self, values={**self.values, name: value})
+        return replace(self, display=replace(self.display, **{name: value}))
+
+    def assigned(self, assignments: Sequence[str]) -> Subject:
+        """The same after the command line's `name=value`s. Raises UsageError."""
+        subject = self
+        for assignment in assignments:
+            name, equals, text = assignment.partition("=")
+            if not equals:
+                raise UsageError(f"--set: expected NAME=VALUE, found {assignment!r}")
+            parameter = find(self.parameters(), name)
+            subject = subject.changed(name, parameter.parse(text))
+        return subject
+
+
+def scene_subject(scene: Scene, data: Mapping[str, Any] | None = None, title: str = "") -> Subject:
+    """A scene with its defaults."""
+    values = {name: parameter.default for name, parameter in scene.parameters.items()}
+    return Subject(scene, values, data=data or {}, title=title or scene.title)
+
+
+def open_subject(name: str) -> Subject:
+    """A scene by its name, or a file by its path.
+
+    Raises UsageError for a name that is neither, FileFormatError for a file that is not readable.
+    """
+    if name in scene_names():
+        return scene_subject(load_scene(name))
+    path = Path(name)
+    if path.suffix.lower() == ".bv" or path.exists():
+        from .files.bv import read_bv
+
+        return scene_subject(load_scene(FILE_SCENE), {"body": read_bv(path)}, path.name)
+    return scene_subject(load_scene(name))  # raises, naming what there is

@@ -1,0 +1,237 @@
+"""What the window shows, and how keys and mouse change it. No window and no OpenGL in here."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from math import asin, sin
+from typing import Any
+
+from ..geometry.camera import View
+from ..scenes.registry import scene_names
+from ..subject import Subject, open_subject, scene_subject
+
+LEVELS = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256)
+CHECKS = (2, 4, 8, 16, 32)
+NOTICE_SECONDS = 2.5
+ANIMATION_SECONDS = 3.0  # from one end to the other
+GLIDE_SECONDS = 0.7
+
+
+class State:
+    """A subject with its views. `changed` is set whenever the picture must be drawn again."""
+
+    def __init__(self, subject: Subject, evaluators: tuple[str, ...], evaluator: str) -> None:
+        self.subject = subject
+        self.evaluators = evaluators
+        self.evaluator = evaluator
+        self.views: dict[str, View] = {}
+        self.help = False
+        self.changed = True
+        self.notice = ""
+        self._notice_until = 0.0
+        self._now = 0.0
+        self._motion: Callable[[float], float | None] | None = None
+        self._visited: dict[str, tuple[Subject, dict[str, View]]] = {}
+        self._opened = subject if subject.data else None
+
+    # Time -----------------------------------------------------------------------------------
+
+    @property
+    def moving(self) -> bool:
+        """Whether time alone changes the picture."""
+        return self._motion is not None
+
+    def seconds_of_notice(self) -> float:
+        """How long the notice is still to be seen."""
+        return max(0.0, self._notice_until - self._now) if self.notice else 0.0
+
+    def advance(self, now: float) -> None:
+        """The clock stands at `now` seconds."""
+        if self._motion is not None:
+            value = self._motion(now)
+            if value is None:
+                self._motion = None
+            else:
+                self._set(self.subject.scene.animates or "", value)
+        self._now = now
+        if self.notice and now >= self._notice_until:
+            self.notice = ""
+            self.changed = True
+
+    def say(self, text: str, seconds: float = NOTICE_SECONDS) -> None:
+        """Show one line for a moment; it is printed too."""
+        self.notice = text
+        self._notice_until = self._now + seconds
+        self.changed = True
+        print(text, flush=True)
+
+    # Keys -----------------------------------------------------------------------------------
+
+    def next_texture(self) -> None:
+        """The next texture map."""
+        if self._has("texture"):
+            self._cycle("texture")
+
+    def next_checks(self) -> None:
+        """Checker squares twice as small, coming round."""
+        if self._has("checks"):
+            now = self.subject.value("checks")
+            self._tell("checks", next((n for n in CHECKS if n > now), CHECKS[0]))
+
+    def toggle_net(self) -> None:
+        """The control net, on or off."""
+        self._cycle("net")
+
+    def toggle_wireframe(self) -> None:
+        """The triangles' edges, on or off."""
+        self._cycle("wireframe")
+
+    def change_level(self, direction: int) -> None:
+        """The next finer or coarser tessellation level."""
+        now = self.subject.value("level")
+        finer = [n for n in LEVELS if n > now] or [LEVELS[-1]]
+        coarser = [n for n in LEVELS if n < now] or [LEVELS[0]]
+        self._tell("level", finer[0] if direction > 0 else coarser[-1])
+
+    def next_evaluator(self) -> None:
+        """The other evaluator, if this OpenGL has it."""
+        index = self.evaluators.index(self.evaluator)
+        self.evaluator = self.evaluators[(index + 1) % len(self.evaluators)]
+        alone = " (the only one here: tessellation needs OpenGL 4.0)"
+        self.say(f"evaluator = {self.evaluator}{alone if len(self.evaluators) == 1 else ''}")
+
+    def toggle_help(self) -> None:
+        """The list of keys, on or off."""
+        self.help = not self.help
+        self.changed = True
+
+    def show_figure(self, number: int) -> None:
+        """The note's figure of that number."""
+        for name in scene_names():
+            if name == f"fig{number}":
+                self._visit(name)
+                return
+        self.say(f"there is no figure {number} here")
+
+    def turn_page(self, direction: int) -> None:
+        """The next or previous scene; a file that was opened is one of them."""
+        names = [*scene_names(), *([self._opened.scene.name] if self._opened else [])]
+        index = names.index(self.subject.scene.name)
+        self._visit(names[(index + direction) % len(names)])
+
+    def reset(self) -> None:
+        """The view as it was at first; if it is so already, the parameters."""
+        self._motion = None
+        if any(view != View() for view in self.views.values()):
+            self.views = {}
+            self.say("view reset")
+            return
+        fresh = scene_subject(self.subject.scene, self.subject.data, self.subject.title)
+        self.subject = fresh
+        self.say("parameters reset")
+
+    def play(self) -> None:
+        """Move the scene's parameter to and fro, or stop."""
+        name = self.subject.scene.animates
+        if self._motion is not None:
+            self._motion = None
+            self.say(f"{name} = {self.subject.value(name or ''):.2f}")
+        elif name is None or not self._has(name):
+            self.say(f"{self.subject.title}: nothing here is animated")
+        else:
+            start, phase = self._now, _unsmooth(self._fraction(name))
+            self._motion = lambda now: self._at(name, phase + (now - start) / ANIMATION_SECONDS)
+            self.say(f"animating {name}")
+
+    def glide(self) -> None:
+        """Morph to the other end."""
+        if not self._has("morph"):
+            return
+        start, phase = self._now, _unsmooth(self._fraction("morph"))
+        end = 0.0 if phase >= 0.5 else 1.0
+
+        def motion(now: float) -> float | None:
+            way = (now - start) / GLIDE_SECONDS
+            if self._fraction("morph") == end:
+                return None
+            return self._at("morph", min(1.0, phase + way) if end else max(0.0, phase - way))
+
+        self._motion = motion
+        self.say(f"morph to {end:.0f}")
+
+    # Mouse ----------------------------------------------------------------------------------
+
+    def pan(self, space: str, dx: float, dy: float) -> None:
+        """Move a space's picture by (dx, dy) model units."""
+        view = self.views.get(space, View())
+        self.views[space] = replace(view, pan=(view.pan[0] - dx, view.pan[1] - dy))
+        self.changed = True
+
+    def zoom(self, space: str, factor: float, x: float, y: float) -> None:
+        """Enlarge by `factor`, keeping the point (x, y) model units from the middle in place."""
+        view = self.views.get(space, View())
+        zoom = min(1e4, max(1e-2, view.zoom * factor))
+        shift = 1.0 - view.zoom / zoom
+        pan = (view.pan[0] + x * shift, view.pan[1] + y * shift)
+        self.views[space] = replace(view, zoom=zoom, pan=pan)
+        self.changed = True
+
+    def orbit(self, space: str, azimuth: float, elevation: float) -> None:
+        """Turn a spatial space by these degrees."""
+        view = self.views.get(space, View())
+        steep = min(90.0, max(-90.0, view.elevation + elevation))
+        turned = (view.azimuth + azimuth) % 360.0
+        self.views[space] = replace(view, azimuth=turned, elevation=steep)
+        self.changed = True
+
+    # ----------------------------------------------------------------------------------------
+
+    def _has(self, name: str) -> bool:
+        if name in self.subject.values:
+            return True
+        self.say(f"{self.subject.title}: has no {name}")
+        return False
+
+    def _set(self, name: str, value: Any) -> None:
+        self.subject = self.subject.changed(name, value)
+        self.changed = True
+
+    def _tell(self, name: str, value: Any) -> None:
+        self._set(name, value)
+        shown = {True: "on", False: "off"}.get(value, value) if isinstance(value, bool) else value
+        self.say(f"{name} = {shown}")
+
+    def _cycle(self, name: str) -> None:
+        self._tell(name, self.subject.parameters()[name].following(self.subject.value(name)))
+
+    def _fraction(self, name: str) -> float:
+        interval = self.subject.parameters()[name].range
+        assert interval is not None
+        return float((self.subject.value(name) - interval.low) / (interval.high - interval.low))
+
+    def _at(self, name: str, phase: float) -> float:
+        interval = self.subject.parameters()[name].range
+        assert interval is not None
+        way = phase % 2.0
+        way = 2.0 - way if way > 1.0 else way
+        return interval.low + (interval.high - interval.low) * way * way * (3.0 - 2.0 * way)
+
+    def _visit(self, name: str) -> None:
+        here = self.subject.scene.name
+        if name == here:
+            return
+        self._motion = None
+        display = self.subject.display
+        self._visited[here] = (self.subject, self.views)
+        if name in self._visited:
+            subject, self.views = self._visited[name]
+        else:
+            subject, self.views = open_subject(name), {}
+        self.subject = replace(subject, display=display)
+        self.say(f"{name}: {self.subject.title}")
+
+
+def _unsmooth(value: float) -> float:
+    """The inverse of smoothstep: where on its way a value of 0..1 stands."""
+    return 0.5 - sin(asin(max(-1.0, min(1.0, 1.0 - 2.0 * value))) / 3.0)

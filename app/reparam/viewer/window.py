@@ -1,0 +1,296 @@
+"""The window: glfw's events in, the painter's frame out."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import Any
+
+import glfw
+import moderngl
+
+from ..errors import GraphicsError, ReparamError
+from ..files.output import check_output, save_picture
+from ..gpu.context import MINIMUM
+from ..gpu.diagnosis import explain
+from ..gpu.painter import Painter, Panel
+from ..gpu.targets import Target
+from ..subject import Subject
+from .keys import KEYS
+from .overlay import draw_help, draw_notice
+from .screen import screen_missing
+from .state import State
+
+FRAME_SECONDS = 1 / 60
+WHEEL = 1.15  # zoom a notch of the wheel
+DEGREES_A_WINDOW = 200.0  # of orbit, dragging across the window's shorter side
+HINT = "T: the other texture map   M: morph   H: all keys"
+
+# Names of the table that are not GLFW's own.
+NAMED = {"Esc": "ESCAPE", "PageDown": "PAGE_DOWN", "PageUp": "PAGE_UP"}
+TYPED = {"+": ("+", "="), "-": ("-", "_")}  # `+` needs no Shift
+KEYPAD = {glfw.KEY_KP_ADD: "+", glfw.KEY_KP_SUBTRACT: "-"}
+KEYPAD |= {glfw.KEY_KP_1 + i: str(1 + i) for i in range(9)}
+
+
+def show(subject: Subject, size: tuple[int, int], evaluator: str | None) -> int:
+    """Open the window and stay until it is closed. Raises GraphicsError where there is none."""
+    missing = screen_missing()
+    if missing is not None:
+        raise GraphicsError(
+            f"{missing}; without one: reparam render {subject.scene.name} -o OUT.png"
+        )
+    window = open_window(size, f"reparam: {subject.title}")
+    try:
+        Viewer(window, subject, evaluator).run()
+    finally:
+        glfw.terminate()
+    return 0
+
+
+def open_window(size: tuple[int, int], title: str, visible: bool = True) -> Any:
+    """A window with OpenGL 4.1 core, or 3.3 where there is no more. Raises GraphicsError."""
+    glfw.ERROR_REPORTING = "ignore"  # asked for by get_error instead
+    if not glfw.init():
+        raise GraphicsError(explain(str(glfw.get_error()[1] or "glfw.init failed")))
+    for major, minor in ((4, 1), (3, 3)):
+        glfw.window_hint(glfw.CONTEXT_VERSION_MAJOR, major)
+        glfw.window_hint(glfw.CONTEXT_VERSION_MINOR, minor)
+        glfw.window_hint(glfw.OPENGL_PROFILE, glfw.OPENGL_CORE_PROFILE)
+        glfw.window_hint(glfw.OPENGL_FORWARD_COMPAT, True)
+        glfw.window_hint(glfw.VISIBLE, visible)
+        window = glfw.create_window(*size, title, None, None)
+        if window:
+            glfw.make_context_current(window)
+            glfw.swap_interval(1)
+            return window
+    reason = str(glfw.get_error()[1] or "glfw.create_window failed")
+    glfw.terminate()
+    raise GraphicsError(explain(reason))
+
+
+class Viewer:
+    """One window. Keys call methods of this class or of its state, as the table of keys says."""
+
+    def __init__(self, window: Any, subject: Subject, evaluator: str | None) -> None:
+        self._window = window
+        self._ctx = moderngl.create_context(require=MINIMUM)
+        self._painter = Painter(self._ctx)
+        capabilities = self._painter.capabilities
+        evaluators = ("vertex", "tessellation") if capabilities.tessellation else ("vertex",)
+        self.state = State(subject, evaluators, capabilities.evaluator(evaluator))
+        self._target: Target | None = None
+        self._panels: list[Panel] = []
+        self._mouse = (0.0, 0.0)
+        self._held: tuple[Panel, int] | None = None
+        self._windowed: tuple[int, int, int, int] | None = None
+        self._actions = self._bind_keys()
+        glfw.set_key_callback(window, self._on_key)
+        glfw.set_cursor_pos_callback(window, self._on_move)
+        glfw.set_mouse_button_callback(window, self._on_button)
+        glfw.set_scroll_callback(window, self._on_scroll)
+        glfw.set_framebuffer_size_callback(window, self._on_damage)
+        glfw.set_window_refresh_callback(window, self._on_damage)
+        self.state.say(HINT, 6.0)
+
+    def run(self) -> None:
+        """Until the window is closed: wait, and draw only what changed."""
+        began = time.perf_counter()
+        while not glfw.window_should_close(self._window):
+            self.state.advance(time.perf_counter() - began)
+            drawn = self._draw() if self.state.changed else 0.0
+            if self.state.moving:
+                glfw.wait_events_timeout(max(1e-3, FRAME_SECONDS - drawn))
+            elif self.state.notice:
+                glfw.wait_events_timeout(max(1e-3, self.state.seconds_of_notice()))
+            else:
+                glfw.wait_events()
+
+    # Drawing --------------------------------------------------------------------------------
+
+    def _draw(self) -> float:
+        """Draw a frame; returns the seconds it took. Nothing while iconified."""
+        size = glfw.get_framebuffer_size(self._window)
+        if min(size) < 1:
+            return 0.0
+        began = time.perf_counter()
+        self.state.changed = False
+        glfw.set_window_title(self._window, f"reparam: {self.state.subject.title}")
+        try:
+            target = self._draw_frame(size)
+        except (ReparamError, ValueError) as error:
+            self.state.say(str(error), 8.0)
+            if self._target is None or self._target.size != size:
+                return 0.0
+            target = self._target
+        self._warn()
+        self._present(target)
+        return time.perf_counter() - began
+
+    def _draw_frame(self, size: tuple[int, int]) -> Target:
+        subject = self.state.subject
+        if self._target is None or self._target.size != size:
+            if self._target is not None:
+                self._target.release()
+            self._target = Target(
+                self._ctx, size, subject.display.samples, self._painter.capabilities
+            )
+        self._panels = self._painter.draw(
+            subject.figure(),
+            self._target,
+            subject.display,
+            evaluator=self.state.evaluator,
+            views=self.state.views,
+        )
+        return self._target
+
+    def _present(self, target: Target) -> None:
+        """The frame onto the screen, and over it what only the window has."""
+        screen = self._ctx.detect_framebuffer(0)
+        screen.viewport = (0, 0, *target.size)
+        self._ctx.copy_framebuffer(screen, target.resolve())
+        screen.use()
+        if self.state.help:
+            draw_help(self._painter.labels, target.size)
+        if self.state.notice:
+            draw_notice(self._painter.labels, self.state.notice, target.size)
+        glfw.swap_buffers(self._window)
+
+    def _warn(self) -> None:
+        warnings = self._painter.surfaces.pictures.warnings
+        if warnings:
+            self.state.say(warnings[-1], 8.0)
+            warnings.clear()
+
+    # Keys -----------------------------------------------------------------------------------
+
+    def _bind_keys(self) -> dict[str, tuple[Any, tuple[int, ...]]]:
+        """Method and arguments by the key's name."""
+        bound = {}
+        for key in KEYS:
+            method = getattr(self, key.action, None) or getattr(self.state, key.action)
+            for i, name in enumerate(key.names):
+                for typed in TYPED.get(name, (name,)):
+                    bound[typed.upper()] = (method, key.arguments[i : i + 1])
+        return bound
+
+    def _on_key(self, _: Any, key: int, scancode: int, action: int, mods: int) -> None:
+        if action == glfw.RELEASE or mods & (glfw.MOD_CONTROL | glfw.MOD_ALT | glfw.MOD_SUPER):
+            return
+        name = key_name(key, scancode)
+        if name in self._actions:
+            method, arguments = self._actions[name]
+            method(*arguments)
+
+    def screenshot(self) -> None:
+        """The frame, without help or notice, into the next free file of the current folder."""
+        if self._target is None:
+            return
+        name = Path(self.state.subject.title).stem if self.state.subject.data else ""
+        stem = f"reparam-{name or self.state.subject.scene.name}"
+        number = 1
+        while (path := Path.cwd() / f"{stem}-{number:03}.png").exists():
+            number += 1
+        try:
+            save_picture(self._target.pixels(), check_output(path))
+            self.state.say(f"saved {path}")
+        except ReparamError as error:
+            self.state.say(str(error), 8.0)
+
+    def reload_shaders(self) -> None:
+        """Read the shaders anew; broken ones leave the last good ones at work."""
+        try:
+            self._painter.reload_shaders()
+            self.state.say("shaders reloaded")
+        except GraphicsError as error:
+            self.state.say(str(error), 15.0)
+
+    def toggle_full_screen(self) -> None:
+        """Full screen and back."""
+        if self._windowed is None:
+            monitor = glfw.get_primary_monitor()
+            if not monitor:
+                self.state.say("no monitor to fill")
+                return
+            x, y = glfw.get_window_pos(self._window)
+            self._windowed = (x, y, *glfw.get_window_size(self._window))
+            mode = glfw.get_video_mode(monitor)
+            glfw.set_window_monitor(
+                self._window, monitor, 0, 0, mode.size.width, mode.size.height, mode.refresh_rate
+            )
+        else:
+            windowed: Any = None
+            glfw.set_window_monitor(self._window, windowed, *self._windowed, glfw.DONT_CARE)
+            self._windowed = None
+        self.state.changed = True
+
+    def quit(self) -> None:
+        """Close the window."""
+        glfw.set_window_should_close(self._window, True)
+
+    # Mouse ----------------------------------------------------------------------------------
+
+    def _pixel(self, x: float, y: float) -> tuple[float, float]:
+        """Framebuffer pixels, y up, from window coordinates."""
+        width, height = glfw.get_window_size(self._window)
+        across, up = glfw.get_framebuffer_size(self._window)
+        return x * across / max(1, width), up - y * up / max(1, height)
+
+    def _panel_at(self, x: float, y: float) -> Panel | None:
+        for panel in self._panels:
+            region = panel.region
+            inside = 0 <= x - region.left < region.width and 0 <= y - region.bottom < region.height
+            if inside:
+                return panel
+        return None
+
+    def _on_button(self, _: Any, button: int, action: int, mods: int) -> None:
+        if action == glfw.PRESS:
+            panel = self._panel_at(*self._mouse)
+            moves = button != glfw.MOUSE_BUTTON_LEFT or bool(mods & glfw.MOD_SHIFT)
+            self._held = (panel, int(moves)) if panel else None
+        else:
+            self._held = None
+
+    def _on_move(self, _: Any, x: float, y: float) -> None:
+        before, self._mouse = self._mouse, self._pixel(x, y)
+        if self._held is None:
+            return
+        panel, moves = self._held
+        dx, dy = self._mouse[0] - before[0], self._mouse[1] - before[1]
+        if panel.space.spatial and not moves:
+            turn = DEGREES_A_WINDOW / min(panel.region.width, panel.region.height)
+            self.state.orbit(panel.space.name, -dx * turn, -dy * turn)
+        else:
+            unit = self._model_units(panel)
+            self.state.pan(panel.space.name, dx * unit, dy * unit)
+
+    def _on_scroll(self, _: Any, __: float, notches: float) -> None:
+        panel = self._panel_at(*self._mouse)
+        if panel is not None:
+            region, unit = panel.region, self._model_units(panel)
+            x = (self._mouse[0] - region.left - region.width / 2) * unit
+            y = (self._mouse[1] - region.bottom - region.height / 2) * unit
+            self.state.zoom(panel.space.name, WHEEL**notches, x, y)
+
+    def _model_units(self, panel: Panel) -> float:
+        """Model units a pixel, now."""
+        current = next((p for p in self._panels if p.space.name == panel.space.name), panel)
+        return 2.0 * current.camera.half_height / current.region.height
+
+    def _on_damage(self, *_: Any) -> None:
+        self.state.changed = True
+
+
+def key_name(key: int, scancode: int) -> str:
+    """The key as the table names it: letters by the user's own keyboard layout."""
+    if key in KEYPAD:
+        return KEYPAD[key]
+    printable = glfw.get_key_name(key, scancode)
+    if printable:
+        return str(printable).upper()
+    for name in (name for row in KEYS for name in row.names):
+        constant = getattr(glfw, "KEY_" + NAMED.get(name, name).upper(), None)
+        if constant is not None and constant == key:
+            return name.upper()
+    return ""

@@ -1,0 +1,32 @@
+// What a vertex of a surface hands to patch.frag, from its evaluated maps.  Shared by mesh.vert
+// (evaluated beforehand) and patch.tese (evaluated on the spot).
+
+uniform mat4 clip_from_model;
+
+#ifdef TEXTURED
+uniform vec4 image_from_map;   // scale s, scale t, offset s, offset t
+out vec2 image_coordinates;
+out vec2 parameters;
+#endif
+
+#ifdef LIT
+uniform mat3 view_from_model;
+out vec3 view_normal;
+#endif
+
+void emit_point(vec4 point) {
+    gl_Position = clip_from_model * point;
+}
+
+#ifdef TEXTURED
+void emit_map(vec4 map, vec2 uv) {
+    image_coordinates = map.xy / map.w * image_from_map.xy + image_from_map.zw;
+    parameters = uv;
+}
+#endif
+
+#ifdef LIT
+void emit_normal(vec3 normal) {
+    view_normal = view_from_model * normal;
+}
+#endif

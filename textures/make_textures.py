@@ -1,0 +1,34 @@
+"""Makes the pictures of this folder: `python textures/make_textures.py`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PIL import Image
+
+FOLDER = Path(__file__).parent
+DARK, LIGHT = (0, 114, 178), (255, 252, 245)
+
+
+def checkerboard(cell: int = 256) -> Image.Image:
+    """2 x 2 squares, dark at the lower left: repeated, a checkerboard."""
+    image = Image.new("RGB", (2 * cell, 2 * cell), LIGHT)
+    image.paste(DARK, (0, cell, cell, 2 * cell))
+    image.paste(DARK, (cell, 0, 2 * cell, cell))
+    return image
+
+
+def corners(cell: int = 64) -> Image.Image:
+    """Four colours, to tell every turn and reflection apart: red upper left, green upper right,
+    blue lower left, yellow lower right."""
+    image = Image.new("RGB", (2 * cell, 2 * cell))
+    image.paste((213, 40, 40), (0, 0, cell, cell))
+    image.paste((0, 158, 80), (cell, 0, 2 * cell, cell))
+    image.paste((30, 80, 200), (0, cell, cell, 2 * cell))
+    image.paste((240, 228, 66), (cell, cell, 2 * cell, 2 * cell))
+    return image
+
+
+if __name__ == "__main__":
+    for make in (checkerboard, corners):
+        make().save(FOLDER / f"{make.__name__}.png", optimize=True)
