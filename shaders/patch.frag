@@ -49,6 +49,6 @@ void main() {
     // Two-sided, from over the eye's left shoulder.
     vec3 normal = normalize(view_normal);
     float facing = abs(dot(normal, normalize(vec3(-0.35, 0.45, 1.0))));
-    fragment.rgb *= 0.30 + 0.70 * facing;
+    fragment.rgb *= 0.45 + 0.55 * facing;
 #endif
 }

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..errors import GraphicsError
 from ..geometry.camera import Camera, View, frame
+from ..geometry.evaluate import project
 from ..scenes import palette
 from ..scenes.display import Display
 from ..scenes.layers import ControlNet, Figure, IsoLines, Label, Layer, Patches, Space
@@ -50,9 +51,12 @@ class Panel:
 
 
 def arrange(
-    figure: Figure, size: tuple[int, int], views: Mapping[str, View], plain: bool
+    figure: Figure, size: tuple[int, int], views: Mapping[str, View], plain: bool, net: bool
 ) -> list[Panel]:
-    """The spaces side by side (one above another in an upright picture), above the caption."""
+    """The spaces side by side (one above another in an upright picture), above the caption.
+
+    With `net` the control nets must be seen too.
+    """
     width, height = size
     unit = min(size) / UNITS
     foot = 0 if plain else round((len(figure.caption) * CAPTION_LINE + PADDING) * unit)
@@ -68,19 +72,21 @@ def arrange(
             low = foot + (height - foot) * (count - 1 - i) // count
             high = foot + (height - foot) * (count - i) // count
             region = Region(0, low, width, max(1, high - low))
-        points = extent(space)
+        points = extent(space, net)
         view = views.get(space.name, View())
         camera = frame(points, region.width, region.height, view, space.spatial)
         panels.append(Panel(space, region, camera))
     return panels
 
 
-def extent(space: Space) -> Array:
+def extent(space: Space, net: bool) -> Array:
     """Points (k, 3) that the space's viewport must show."""
-    if len(space.bounds) != 2:
-        return space.bounds
-    corners = np.stack(np.meshgrid(*space.bounds.T, indexing="ij"), -1)
-    return np.asarray(corners.reshape(-1, 3))
+    points = space.bounds
+    if len(points) == 2:
+        points = np.stack(np.meshgrid(*points.T, indexing="ij"), -1).reshape(-1, 3)
+    nets = [layer.net for layer in space.layers if isinstance(layer, ControlNet) and net]
+    controls = [control[control[..., 3] > 0.0] for control in nets]
+    return np.concatenate([points, *(project(control) for control in controls)])
 
 
 class Painter:
@@ -111,11 +117,11 @@ class Painter:
         """
         chosen = self.capabilities.evaluator(evaluator)
         figure = figure.plain() if plain else figure
-        panels = arrange(figure, target.size, views or {}, plain)
+        panels = arrange(figure, target.size, views or {}, plain, display.net)
         framebuffer = target.framebuffer
         framebuffer.use()
         ground = palette.PLAIN_GROUND if plain else palette.GROUND
-        framebuffer.viewport = (0, 0, *target.size)
+        self.ctx.viewport = (0, 0, *target.size)
         framebuffer.clear(*ground, 1.0, depth=1.0)
         self.ctx.enable(moderngl.BLEND)
         self.ctx.blend_func = (
