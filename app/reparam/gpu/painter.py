@@ -141,13 +141,13 @@ class Painter:
         region = panel.region
         box = (region.left, region.bottom, region.width, region.height)
         self.ctx.viewport = box
-        self.ctx.scissor = box
+        self.ctx.scissor = box  # type: ignore[assignment]  # four numbers, whatever the stub says
         if panel.space.spatial:
             self.ctx.enable(moderngl.DEPTH_TEST)
         for layer in panel.space.layers:
             self._draw_layer(layer, panel, display, evaluator, unit)
         self.ctx.disable(moderngl.DEPTH_TEST)
-        self.ctx.scissor = None
+        self.ctx.scissor = None  # type: ignore[assignment]
         self.ctx.viewport = (0, 0, *target.size)
         for layer in panel.space.layers:
             if isinstance(layer, Label):
