@@ -124,9 +124,7 @@ class Painter:
         self.ctx.viewport = (0, 0, *target.size)
         framebuffer.clear(*ground, 1.0, depth=1.0)
         self.ctx.enable(moderngl.BLEND)
-        self.ctx.blend_func = (
-            moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA, moderngl.ONE, moderngl.ONE
-        )  # fmt: skip
+        self.ctx.blend_func = (moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA)
         unit = min(target.size) / UNITS
         for panel in panels:
             self._draw_space(panel, target, display, chosen, unit)
@@ -141,13 +139,13 @@ class Painter:
         region = panel.region
         box = (region.left, region.bottom, region.width, region.height)
         self.ctx.viewport = box
-        self.ctx.scissor = box  # type: ignore[assignment]  # four numbers, whatever the stub says
+        self.ctx.scissor = box
         if panel.space.spatial:
             self.ctx.enable(moderngl.DEPTH_TEST)
         for layer in panel.space.layers:
             self._draw_layer(layer, panel, display, evaluator, unit)
         self.ctx.disable(moderngl.DEPTH_TEST)
-        self.ctx.scissor = None  # type: ignore[assignment]
+        self.ctx.scissor = None
         self.ctx.viewport = (0, 0, *target.size)
         for layer in panel.space.layers:
             if isinstance(layer, Label):

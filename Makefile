@@ -1,0 +1,68 @@
+# make run        sets everything up and opens the viewer; without a screen: writes ./figures
+# make test       style, types, then the quick tests
+# make test-slow  the tests that take minutes
+# make lint       style and types
+# make format     brings the code into style
+# make clean      removes the virtual environment and what the tools keep
+# PYTHON=python3.12 chooses another Python than python3.
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+
+RUN_PACKAGES := python3-venv libegl1 libgl1
+TEST_PACKAGES := libglu1-mesa glslang-tools xvfb xauth xdotool
+ifeq ($(shell uname -sm),Linux aarch64) # moderngl has no wheel there: pip compiles it
+RUN_PACKAGES += g++ python3-dev libegl-dev libx11-dev
+endif
+
+export PIP_DISABLE_PIP_VERSION_CHECK := 1
+.DELETE_ON_ERROR:
+.NOTPARALLEL:
+.PHONY: run test test-slow lint format clean run-packages test-packages
+
+run: run-packages $(VENV)/run
+	@$(BIN)/reparam
+
+test: test-packages lint
+	$(BIN)/pytest -n 2
+
+test-slow: test-packages $(VENV)/test
+	$(BIN)/pytest -m slow
+
+lint: $(VENV)/test
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/mypy
+
+format: $(VENV)/test
+	$(BIN)/ruff check --fix
+	$(BIN)/ruff format
+
+clean:
+	rm -rf $(VENV) .mypy_cache .pytest_cache .ruff_cache build dist
+
+run-packages:
+	@.ci/system-packages $(PYTHON) $(RUN_PACKAGES)
+
+test-packages:
+	@.ci/system-packages $(PYTHON) $(RUN_PACKAGES) $(TEST_PACKAGES)
+
+# A copied checkout brings a .venv that imports the original: .venv/of says whose it is.
+ifneq ($(shell cat $(VENV)/of 2>/dev/null),$(CURDIR) $(PYTHON))
+.PHONY: $(BIN)/python
+endif
+
+$(BIN)/python:
+	@.ci/system-packages $(PYTHON) python3-venv
+	@echo "setting up $(CURDIR)/$(VENV) (once; a minute)"
+	@$(PYTHON) -m venv --clear $(VENV)
+	@echo "$(CURDIR) $(PYTHON)" >$(VENV)/of
+
+$(VENV)/run: $(BIN)/python pyproject.toml
+	@$(BIN)/python -m pip install --quiet --editable .
+	@touch $@
+
+$(VENV)/test: $(BIN)/python pyproject.toml
+	@$(BIN)/python -m pip install --quiet --editable '.[dev]'
+	@touch $(VENV)/run $@

@@ -1,0 +1,200 @@
+"""Programs: every variant passes a strict validator, errors name file:line, uniforms are set."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from truth import errors, random_nets
+
+from reparam import assets
+from reparam.errors import GraphicsError
+from reparam.gpu.painter import Painter
+from reparam.gpu.programs import Programs, degree_defines, locate, stage_source
+from reparam.gpu.readback import read_points
+from reparam.snapshot import Studio
+
+LOOKS: list[dict[str, int]] = [
+    {},
+    {"LIT": 1},
+    {"TEXTURED": 1},
+    {"TEXTURED": 1, "LIT": 1},
+    {"TEXTURED": 1, "MIRRORED": 1},
+    {"TEXTURED": 1, "MIRRORED": 1, "LIT": 1},
+]
+TESSELLATION = ("patch.tess.vert", "patch.tesc", "patch.tese")
+EVALUATE = degree_defines(**{"": (3, 1)}) | {"NORMALS": 1}
+LOW = degree_defines(POSITION_=(2, 3), TEXTURE_=(1, 1))
+HIGH = degree_defines(POSITION_=(2, 9), TEXTURE_=(1, 1))
+VARIANTS: list[tuple[tuple[str, ...], dict[str, int]]] = [
+    *((("mesh.vert", "patch.frag"), look) for look in LOOKS),
+    *(((*TESSELLATION, "patch.frag"), look | LOW) for look in LOOKS),
+    *(((*TESSELLATION, "patch.frag"), look | HIGH) for look in LOOKS),
+    ((*TESSELLATION, "probe.frag"), {"PROBE": 1} | degree_defines(POSITION_=(0, 8))),
+    ((*TESSELLATION, "probe.frag"), {"PROBE": 1} | degree_defines(POSITION_=(31, 1))),
+    (("evaluate.vert",), degree_defines(**{"": (0, 0)})),
+    (("evaluate.vert",), EVALUATE),
+    (("evaluate.vert",), degree_defines(**{"": (9, 1)})),
+    (("evaluate.vert",), degree_defines(**{"": (1, 31)}) | {"NORMALS": 1}),
+    (("stroke.vert", "stroke.frag"), {}),
+    (("marker.vert", "marker.frag"), {}),
+    (("marker.vert", "marker.frag"), {"ARROW": 1}),
+    (("label.vert", "label.frag"), {}),
+]
+MARKED = (("marker.vert", "marker.frag"), {"ARROW": 1})
+
+
+@pytest.fixture
+def tree(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A copy of shaders/ that the programs are made from."""
+    copy = tmp_path / "shaders"
+    shutil.copytree(assets.root() / "shaders", copy)
+    monkeypatch.setattr(assets, "root", lambda: tmp_path)
+    return copy
+
+
+def break_line(file: Path, line: int, text: str) -> None:
+    lines = file.read_text().splitlines()
+    lines[line - 1] = text
+    file.write_text("\n".join(lines) + "\n")
+
+
+def place(text: str, wanted: str) -> tuple[int, int]:
+    """Source string and line of a line, as #line makes a compiler count."""
+    string = number = 0
+    for line in text.splitlines():
+        if directive := re.match(r"#line (\d+)(?: (\d+))?$", line):
+            number, string = int(directive[1]), int(directive[2] or string)
+        elif wanted in line:
+            break
+        else:
+            number += 1
+    return string, number
+
+
+def validate(folder: Path, stages: tuple[str, ...], defines: dict[str, int]) -> str:
+    """What glslangValidator says against the stages, each alone and linked; nothing if good.
+
+    It knows `precise` from GLSL 4.00 on, not by the extension that drivers offer it by.
+    """
+    version = 400 if "patch.tese" in stages else 330
+    files = [folder / name for name in stages]
+    for file in files:
+        text = stage_source(file.name, defines, version).text
+        file.write_text(text.replace("PRECISE precise", "PRECISE") if version < 400 else text)
+    found = subprocess.run(["glslangValidator", "-l", *files], capture_output=True, text=True)
+    return "" if found.returncode == 0 else found.stdout + found.stderr
+
+
+@pytest.mark.parametrize(("stages", "defines"), VARIANTS)
+def test_every_variant_is_valid(
+    tmp_path: Path, stages: tuple[str, ...], defines: dict[str, int]
+) -> None:
+    assert validate(tmp_path, stages, defines) == ""
+
+
+def test_the_validator_would_say_so(tmp_path: Path, tree: Path) -> None:
+    break_line(tree / "marker.frag", 3, "uniform vec3 color;")
+    assert "ERROR" in validate(tmp_path, *MARKED)
+
+
+def test_no_shader_is_left_out() -> None:
+    files = {path.name for path in (assets.root() / "shaders").glob("*.*")}
+    assert files == {name for stages, _ in VARIANTS for name in stages}
+
+
+@pytest.mark.parametrize(
+    ("file", "line", "text"),
+    [
+        ("lib/normal.glsl", 7, "vec3 safe_normalize(vec3 v) { undeclared = v;"),
+        ("lib/bernstein.glsl", 17, "    basis[0] = vec2(1.0);"),
+        ("lib/net.glsl", 6, "    return )"),
+        ("evaluate.vert", 29, "    int patch_index = first_patch + missing(gl_InstanceID);"),
+    ],
+)
+def test_an_error_names_file_and_line(
+    studio: Studio, tree: Path, file: str, line: int, text: str
+) -> None:
+    break_line(tree / file, line, text)
+    with pytest.raises(GraphicsError, match=rf"^{Path(file).name}:{line}: \S.*\Z"):
+        Programs(studio.ctx).get("evaluate.vert", defines=EVALUATE)
+
+
+def test_a_warning_before_the_error_is_not_taken_for_it(studio: Studio, tree: Path) -> None:
+    break_line(tree / "lib/net.glsl", 1, "float unset() { float x; return x; }")
+    break_line(tree / "lib/normal.glsl", 3, "float used = unset() + undeclared;")
+    with pytest.raises(GraphicsError, match=r"^normal\.glsl:3: "):
+        Programs(studio.ctx).get("evaluate.vert", defines=EVALUATE)
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        "%d:%d(5): error: `x' undeclared",
+        "%d(%d) : error C1503: undefined variable x",
+        "ERROR: %d:%d: 'x' : undeclared identifier",
+    ],
+    ids=["Mesa", "NVIDIA", "Apple"],
+)
+def test_drivers_messages(message: str) -> None:
+    source = stage_source("evaluate.vert", {}, 330)
+    said = message % place(source.text, "// sum_j basis[j]")
+    log = f"GLSL Compiler failed\n\nvertex_shader\n=============\n{said}\n"
+    assert locate(log, {"vertex_shader": source}).startswith("evaluate.glsl:15: ")
+
+
+def test_a_missing_include_names_file_and_line(tree: Path) -> None:
+    break_line(tree / "lib" / "evaluate.glsl", 14, '#include "missing.glsl"')
+    with pytest.raises(GraphicsError, match=r"^evaluate.glsl:14: expected a file to include"):
+        stage_source("evaluate.vert", {}, 330)
+
+
+def test_reload_keeps_the_last_good_programs(studio: Studio, tree: Path) -> None:
+    painter = Painter(studio.ctx)
+    nets = random_nets(np.random.default_rng(1), (1, 2), True)
+    before = painter.programs.get(*MARKED[0], defines=MARKED[1])
+    assert errors(nets, read_points(painter, "vertex", nets, 3)).point < 4e-7
+    good = (tree / "lib" / "net.glsl").read_text()
+    break_line(tree / "lib" / "net.glsl", 5, "vec4 control_point(sampler2D net, int index {")
+    with pytest.raises(GraphicsError, match=r"^net.glsl:5: "):
+        painter.reload_shaders()
+    assert painter.programs.generation == 0
+    assert painter.programs.get(*MARKED[0], defines=MARKED[1]) is before
+    assert errors(nets, read_points(painter, "vertex", nets, 3)).point < 4e-7
+    (tree / "lib" / "net.glsl").write_text(good.replace(", 0);", ", 0) * 2.0;"))
+    painter.reload_shaders()
+    assert painter.programs.generation == 1
+    assert painter.programs.get(*MARKED[0], defines=MARKED[1]) is not before
+    points = read_points(painter, "vertex", nets, 3).points
+    assert (points[:, 0] == 2.0 * nets[:, 0, 0].astype(np.float32)).all()
+
+
+def test_programs_are_compiled_once(studio: Studio) -> None:
+    programs = Programs(studio.ctx)
+    one = programs.get(*MARKED[0], defines=MARKED[1])
+    assert programs.get(*MARKED[0], defines=MARKED[1]) is one
+    assert programs.get(*MARKED[0]) is not one
+
+
+def test_uniforms(studio: Studio) -> None:
+    program = Programs(studio.ctx).get("label.vert", "label.frag")
+    with pytest.raises(KeyError, match="no uniform colour"):
+        program.set(colour=(0.0, 0.0, 0.0, 1.0))
+    program.set(viewport=(10, 10), box=(0, 0, 1, 1), coverage=0)
+    with pytest.raises(AssertionError, match=r"uniforms never set: color$"):
+        program.ready()
+    assert program.set(color=(0.0, 0.0, 0.0, 1.0)).ready() is program.gl
+
+
+def test_a_uniform_that_the_compiler_dropped_is_passed_over(studio: Studio) -> None:
+    programs = Programs(studio.ctx)
+    low, high = (degree_defines(**{"": (degree, degree)}) for degree in (0, 9))
+    program = programs.get("evaluate.vert", defines=low, varyings=("point",))
+    program.set(net=0, first_patch=0, patch_stride=1).ready()
+    generic = programs.get("evaluate.vert", defines=high, varyings=("point",))
+    with pytest.raises(AssertionError, match="never set: degree, first_patch, net, patch_stride"):
+        generic.ready()
