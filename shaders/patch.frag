@@ -3,18 +3,18 @@
 // With multisampling a pixel on the rim is drawn though its centre lies outside, where the map is
 // extrapolated and the picture's next square begins: specks. `centroid` would mend that, but
 // jitter the picture along every inner edge too. Instead the map is followed, linear as it is in
-// a triangle, from the pixel's centre to the nearest parameters that lie in the patch, and with
+// a triangle, from the pixel's centre to the nearest place whose (u,v) lie in the patch, and with
 // smooth filtering as far inside as the filter reaches:
 //
-//        |   o  centre, at (u,v)
+//        |   o  centre
 //     ---+---|-------------- v = 1
-//        |   x  inside.y         picture(o) + d(picture)/d(u,v) * (x - o)
+//        |   x  inside             picture(o) + d(picture)/d(pixel) * (x - o)
 
 uniform vec4 color;
 #ifdef TEXTURED
 uniform sampler2D image;
 uniform float reach;   // of the filter, in pixels: 0 for nearest
-in vec2 image_coordinates;
+in vec3 image_map;       // homogeneous: a rational map stays linear in (x,y)
 in vec2 parameters;
 #endif
 #ifdef LIT
@@ -24,14 +24,24 @@ in vec3 view_normal;
 out vec4 fragment;
 
 #ifdef TEXTURED
+// The shortest way, in pixels, that brings a parameter with this gradient into the patch.
+vec2 way_inside(float parameter, vec2 gradient) {
+    float margin = clamp(reach * (abs(gradient.x) + abs(gradient.y)), 1e-5, 0.5);
+    float missing = clamp(parameter, margin, 1.0 - margin) - parameter;
+    return gradient * (missing / max(dot(gradient, gradient), 1e-30));
+}
+
 vec4 look_up() {
-    vec2 image_x = dFdx(image_coordinates), image_y = dFdy(image_coordinates);
-    mat2 uv_from_pixels = mat2(dFdx(parameters), dFdy(parameters));
-    vec2 margin = clamp(reach * (abs(uv_from_pixels[0]) + abs(uv_from_pixels[1])), 1e-5, 0.5);
-    vec2 step_inside = clamp(parameters, margin, 1.0 - margin) - parameters;
-    vec2 at = image_coordinates;
-    if (step_inside != vec2(0.0) && determinant(uv_from_pixels) != 0.0)
-        at += mat2(image_x, image_y) * (inverse(uv_from_pixels) * step_inside);
+    vec2 center = image_map.xy / image_map.z;
+    vec2 image_x = dFdx(center), image_y = dFdy(center);
+    vec2 gradient_u = vec2(dFdx(parameters.x), dFdy(parameters.x));
+    vec2 gradient_v = vec2(dFdx(parameters.y), dFdy(parameters.y));
+    vec2 way = vec2(0.0);
+    for (int i = 0; i < 2; ++i) {   // in turn: u and v need not be orthogonal
+        way += way_inside(parameters.x + dot(gradient_u, way), gradient_u);
+        way += way_inside(parameters.y + dot(gradient_v, way), gradient_v);
+    }
+    vec2 at = center + mat2(image_x, image_y) * way;
 #ifdef MIRRORED
     at = 1.0 - abs(mod(at, 2.0) - 1.0);
 #endif

@@ -16,7 +16,7 @@ from reparam.geometry.body import Patch, body
 from reparam.geometry.evaluate import evaluate
 from reparam.geometry.net import control_net
 from reparam.geometry.regions import count_regions, label_regions
-from reparam.scenes.registry import load_scene
+from reparam.scenes.registry import file_scene
 from reparam.snapshot import Studio
 from reparam.subject import scene_subject
 
@@ -146,7 +146,7 @@ def test_the_rim_is_four_parabolas(studio: Studio) -> None:
 @pytest.mark.parametrize("subject", ["r", "elsewhere"])
 def test_the_box_is_centred(studio: Studio, size: tuple[int, int], subject: str) -> None:
     nets = {"r": planar_maps.R, "elsewhere": control_net([[(7, -2), (9, 3)], [(8, -4), (12, -3)]])}
-    scene = scene_subject(load_scene("surface"), {"body": body([Patch(nets[subject])])})
+    scene = scene_subject(file_scene(), {"body": body([Patch(nets[subject])])})
     inside = covered(studio.draw(scene.changed("samples", 1), size, plain=True))
     rows, columns = np.flatnonzero(inside.any(1)), np.flatnonzero(inside.any(0))
     margins = [columns[0], size[0] - 1 - columns[-1], rows[0], size[1] - 1 - rows[-1]]

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from .errors import GraphicsError
 
+FILE_LINES = 10_000  # #line counts file * FILE_LINES + line: Mesa forgets the file's own number
 _INCLUDE = re.compile(r'\s*#include\s+"([^"]+)"\s*$')
 
 
@@ -29,7 +30,7 @@ def texture_path(name: str) -> Path:
 
 @dataclass(frozen=True)
 class ShaderSource:
-    """One stage, expanded. `#line N S` points into `files[S]`, so a compiler's message can too."""
+    """One stage, expanded. `#line S * FILE_LINES + N` is line N of `files[S]`."""
 
     text: str
     files: tuple[Path, ...]
@@ -46,7 +47,7 @@ def expand_shader(name: str, preamble: str = "") -> ShaderSource:
 def _expand(path: Path, files: list[Path], lines: list[str]) -> None:
     number = len(files)
     files.append(path)
-    lines.append(f"#line 1 {number}")
+    lines.append(f"#line {number * FILE_LINES + 1}")
     for i, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
         include = _INCLUDE.match(line)
         if include is None:
@@ -59,4 +60,4 @@ def _expand(path: Path, files: list[Path], lines: list[str]) -> None:
             )
         if target not in files:
             _expand(target, files, lines)
-        lines.append(f"#line {i + 1} {number}")
+        lines.append(f"#line {number * FILE_LINES + i + 1}")

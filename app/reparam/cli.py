@@ -154,10 +154,10 @@ def run_render(options: argparse.Namespace) -> int:
 
 def run_list(options: argparse.Namespace) -> int:
     """Scenes with their parameters, then the display's, which all scenes share."""
-    from .scenes.registry import load_scene, scene_names
+    from .scenes.registry import file_scene, load_scene, scene_names
     from .subject import DISPLAY
 
-    scenes = [load_scene(name) for name in (*scene_names(), "surface")]
+    scenes = [*(load_scene(name) for name in scene_names()), file_scene()]
     if options.json:
         rows = [{"scene": s.name, "title": s.title, "figure": s.figure,
                  "parameters": [p.row() for p in (*s.parameters.values(), *DISPLAY.values())]}
@@ -178,14 +178,15 @@ def run_check(options: argparse.Namespace) -> int:
     from .scenes.registry import load_scene, scene_names
     from .snapshot import Studio
 
+    scenes = [load_scene(name) for name in options.scenes or scene_names()]
     studio, verdicts = Studio(), []
-    for name in options.scenes or scene_names():
-        for claim in load_scene(name).claimed():
-            verdict = judge(name, claim, studio)
+    for scene in scenes:
+        for claim in scene.claimed():
+            verdict = judge(scene.name, claim, studio)
             verdicts.append(verdict)
             if not options.json:
                 mark = "ok  " if verdict.ok else "FAIL"
-                print(f"{mark} {name:6} {verdict.equation:8} {verdict.statement}")
+                print(f"{mark} {scene.name:6} {verdict.equation:8} {verdict.statement}")
                 print(f"       expected {verdict.expected}  measured {verdict.measured}"
                       f"  tolerance {verdict.tolerance:g}")  # fmt: skip
     if options.json:

@@ -28,6 +28,7 @@ class Studio:
         self, subject: Subject, size: tuple[int, int], *, plain: bool = False
     ) -> NDArray[np.uint8]:
         """The subject as (height, width, 3), top row first."""
+        self.ctx.__enter__()  # type: ignore[no-untyped-call]  # current, should there be another
         display = subject.display
         target = Target(self.ctx, size, display.samples, self.painter.capabilities)
         try:

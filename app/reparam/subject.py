@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -11,7 +12,7 @@ from .errors import UsageError
 from .scenes.display import Display
 from .scenes.layers import Figure
 from .scenes.parameters import Parameter, find, parameters_of
-from .scenes.registry import FILE_SCENE, Scene, load_scene, scene_names
+from .scenes.registry import Scene, file_scene, load_scene, scene_names
 
 DISPLAY = parameters_of(Display)
 
@@ -71,8 +72,8 @@ def open_subject(name: str) -> Subject:
     if name in scene_names():
         return scene_subject(load_scene(name))
     path = Path(name)
-    if path.suffix.lower() == ".bv" or path.exists():
+    if path.suffix.lower() == ".bv" or os.path.exists(path):  # Path.exists raises on long names
         from .files.bv import read_bv
 
-        return scene_subject(load_scene(FILE_SCENE), {"body": read_bv(path)}, path.name)
+        return scene_subject(file_scene(), {"body": read_bv(path)}, path.name)
     return scene_subject(load_scene(name))  # raises, naming what there is

@@ -13,19 +13,28 @@ vec3 projected_derivative(vec4 point, vec4 derivative) {
     return derivative.xyz - derivative.w * (point.xyz / point.w);
 }
 
-vec3 cross_of_tangents(sampler2D net, int patch_index, ivec2 degree, vec4 uv, vec4 point) {
+float largest_component(vec3 v) {
+    return max(max(abs(v.x), abs(v.y)), abs(v.z));
+}
+
+// Zero too where one tangent is less than `least` of the other: at a pole it is rounding alone.
+vec3 cross_of_tangents(sampler2D net, int patch_index, ivec2 degree, vec4 uv, vec4 point,
+                       float least) {
     vec4 along_u, along_v;
     evaluate_derivatives(net, patch_index, degree, uv, along_u, along_v);
-    return cross(safe_normalize(projected_derivative(point, along_u)),
-                 safe_normalize(projected_derivative(point, along_v)));
+    vec3 p_u = projected_derivative(point, along_u), p_v = projected_derivative(point, along_v);
+    float size_u = largest_component(p_u), size_v = largest_component(p_v);
+    if (min(size_u, size_v) <= least * max(size_u, size_v))
+        return vec3(0.0);
+    return cross(safe_normalize(p_u), safe_normalize(p_v));
 }
 
 vec3 surface_normal(sampler2D net, int patch_index, ivec2 degree, vec4 uv, vec4 point) {
-    vec3 normal = cross_of_tangents(net, patch_index, degree, uv, point);
+    vec3 normal = cross_of_tangents(net, patch_index, degree, uv, point, SINGULAR_SINE);
     if (dot(normal, normal) <= SINGULAR_SINE * SINGULAR_SINE) {
         uv = mix(uv, vec4(0.5), SINGULAR_STEP);
         point = evaluate(net, patch_index, degree, uv);
-        normal = cross_of_tangents(net, patch_index, degree, uv, point);
+        normal = cross_of_tangents(net, patch_index, degree, uv, point, 0.0);
     }
     return dot(normal, normal) > 0.0 ? normalize(normal) : vec3(0.0, 0.0, 1.0);
 }

@@ -5,7 +5,7 @@ uniform mat4 clip_from_model;
 
 #ifdef TEXTURED
 uniform vec4 image_from_map;   // scale s, scale t, offset s, offset t
-out vec2 image_coordinates;
+out vec3 image_map;
 out vec2 parameters;
 #endif
 
@@ -20,7 +20,7 @@ void emit_point(vec4 point) {
 
 #ifdef TEXTURED
 void emit_map(vec4 map, vec2 uv) {
-    image_coordinates = map.xy / map.w * image_from_map.xy + image_from_map.zw;
+    image_map = vec3(map.xy * image_from_map.xy + map.w * image_from_map.zw, map.w);
     parameters = uv;
 }
 #endif

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +19,7 @@ def check_output(path: Path) -> Path:
         raise UsageError(f"--output: expected a name ending in .png, found {str(path)!r}")
     if not path.parent.is_dir():
         raise ReparamError(f"{path}: expected an existing folder, found no {path.parent}")
-    if path.is_dir() or not os.access(path if path.exists() else path.parent, os.W_OK):
+    if os.path.isdir(path) or not os.access(path if os.path.exists(path) else path.parent, os.W_OK):
         raise ReparamError(f"{path}: expected a file that may be written, found none")
     return path
 
@@ -30,5 +31,6 @@ def save_picture(picture: NDArray[np.uint8], path: Path) -> None:
         Image.fromarray(picture).save(part, "PNG")
         os.replace(part, path)
     except OSError as error:
-        part.unlink(missing_ok=True)
+        with suppress(OSError):
+            part.unlink()
         raise ReparamError(f"{path}: could not be written: {error.strerror or error}") from error

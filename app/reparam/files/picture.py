@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -20,6 +23,14 @@ class Pixels:
     data: bytes
 
 
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Pillow warns of large pictures and odd EXIF tags, which are not the user's concern."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        yield
+
+
 def read_picture(path: Path, largest: int) -> Pixels:
     """Any picture that Pillow reads, turned upright by its EXIF tag, on white where transparent.
 
@@ -27,7 +38,7 @@ def read_picture(path: Path, largest: int) -> Pixels:
     on a side or 2^27 pixels in all: the size is known before memory is taken.
     """
     try:
-        with Image.open(path) as image:
+        with _quiet(), Image.open(path) as image:
             width, height = image.size
             if max(width, height) > largest or width * height > MOST_PIXELS:
                 raise FileFormatError(
@@ -44,7 +55,7 @@ def read_picture(path: Path, largest: int) -> Pixels:
         raise
     except FileNotFoundError:
         raise FileFormatError(f"{path}: expected a picture, found no such file") from None
-    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
+    except Exception as error:  # Pillow's readers raise what they like
         raise FileFormatError(f"{path}: expected a picture, found {error}") from None
     flipped = rgb.transpose(Image.Transpose.FLIP_TOP_BOTTOM)
     return Pixels(flipped.size, flipped.tobytes())

@@ -84,7 +84,8 @@ class Numbers:
 
     def _convert(self, start: int) -> Array:
         """The usable numbers, up to the end or to the first word that is none."""
-        parts, count = [np.zeros(0)], 0
+        parts: list[Array] = [np.zeros(0)]
+        count = 0
         while start < self._stop and not self._blocked:
             blank = BLANK.search(self._data, min(start + CHUNK, self._stop), self._stop)
             end = blank.start() if blank else self._stop

@@ -73,11 +73,10 @@ def frame(points: Array, width: int, height: int, view: View, spatial: bool) -> 
     seen = points @ rotation.T
     low, high = seen.min(0), seen.max(0)
     center = rotation.T @ ((low + high) / 2.0)
-    half = (high - low) / 2.0
-    scale = max(float(half[0]) / width, float(half[1]) / height, 1e-30) * MARGIN
-    if half[0] == half[1] == 0.0:
-        scale = 1.0 / min(width, height)  # a single point: any scale shows it
-    half_depth = max(float(np.linalg.norm(half)), 1e-30) * 2.0
+    least = max(float(np.abs(seen).max()) * 1e-6, 1e-30)  # of a point, or nearly one
+    half = np.maximum((high - low) / 2.0, least)
+    scale = max(float(half[0]) / width, float(half[1]) / height) * MARGIN
+    half_depth = float(np.linalg.norm(half)) * 2.0
     scale /= view.zoom
     center = center + rotation[0] * view.pan[0] + rotation[1] * view.pan[1]
     return Camera(rotation, center, scale * width, scale * height, half_depth)

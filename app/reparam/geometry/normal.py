@@ -28,14 +28,17 @@ def projected_derivative(points: Array, derivatives: Array) -> Array:
     )
 
 
-def cross_of_tangents(net: Array, u: ArrayLike, v: ArrayLike) -> Array:
-    """Cross product of the unit tangents along u and v; its length is the sine between them."""
+def cross_of_tangents(net: Array, u: ArrayLike, v: ArrayLike, least: float = 0.0) -> Array:
+    """Cross product of the unit tangents along u and v; its length is the sine between them.
+
+    Zero too where one tangent is less than `least` of the other: at a pole it is rounding alone.
+    """
     points = evaluate(net, u, v)
-    along_u, along_v = evaluate_derivatives(net, u, v)
-    return np.cross(
-        safe_normalize(projected_derivative(points, along_u)),
-        safe_normalize(projected_derivative(points, along_v)),
-    )
+    along_u, along_v = (projected_derivative(points, d) for d in evaluate_derivatives(net, u, v))
+    sizes = np.stack([np.abs(along_u).max(-1), np.abs(along_v).max(-1)])
+    tiny = sizes.min(0) <= least * sizes.max(0)
+    normal = np.cross(safe_normalize(along_u), safe_normalize(along_v))
+    return np.where(tiny[..., None], 0.0, normal)
 
 
 def surface_normal(net: Array, u: ArrayLike, v: ArrayLike) -> Array:
@@ -43,13 +46,13 @@ def surface_normal(net: Array, u: ArrayLike, v: ArrayLike) -> Array:
 
     Where it vanishes, at a pole or at a corner of r where p_u = -p_v, the normal a little
     inside is taken: the limit instead of OpenGL's zero vector. Where there is none either
-    (all points collinear), (0, 0, 1).
+    (all points collinear), any unit vector, never NaN.
     """
     u, v = np.asarray(u, dtype=np.float64), np.asarray(v, dtype=np.float64)
-    normal = cross_of_tangents(net, u, v)
+    normal = cross_of_tangents(net, u, v, SINGULAR_SINE)
     singular = np.linalg.norm(normal, axis=-1, keepdims=True) <= SINGULAR_SINE
     if singular.any():
-        inside = (t + SINGULAR_STEP * (0.5 - t) for t in (u, v))
-        normal = np.where(singular, cross_of_tangents(net, *inside), normal)
+        u, v = (t + SINGULAR_STEP * (0.5 - t) for t in (u, v))
+        normal = np.where(singular, cross_of_tangents(net, u, v), normal)
     nowhere = ~normal.any(-1, keepdims=True)
     return safe_normalize(np.where(nowhere, np.array([0.0, 0.0, 1.0]), normal))

@@ -76,7 +76,10 @@ class Evaluation:
             patch_stride=0 if shared else 1,
         )
         where = self._upload(parameters)
-        vertices = self._ctx.vertex_array(program.ready(), [(where.buffer, "4f", "parameters")])
+        vertices = self._ctx.vertex_array(
+            program.ready(),
+            [(where.buffer, "4f", "parameters")] if "parameters" in program.gl else [],
+        )
         size = len(patches) * where.count * FLOATS[normals] * 4
         captured = self._ctx.buffer(reserve=size)
         vertices.transform(captured, moderngl.POINTS, where.count, instances=len(patches))

@@ -107,7 +107,9 @@ def font(pixels: int, italic: bool) -> ImageFont.FreeTypeFont:
     assert spec is not None
     assert spec.origin is not None
     name = "SourceSansPro-It.ttf" if italic else "SourceSansPro-Regular.ttf"
-    return ImageFont.truetype(str(Path(spec.origin).parent / "files" / name), pixels)
+    path = Path(spec.origin).parent / "files" / name
+    # Raqm would kern differently, and is there only where libfribidi is.
+    return ImageFont.truetype(str(path), pixels, layout_engine=ImageFont.Layout.BASIC)
 
 
 def measure(text: str, pixels: int, italic: bool = False) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import moderngl
@@ -52,6 +53,8 @@ class Pictures:
                 pixels = read_picture(_path(picture.source), self._capabilities.largest)
                 self._textures[picture.source] = (self._upload(pixels), True)
             except FileFormatError as error:
+                if picture.source == Picture().source:
+                    raise
                 self.warnings.append(f"{error}; the checkerboard stands in")
                 checkerboard = self._load(Picture())[0]
                 self._textures[picture.source] = (checkerboard, False)
@@ -65,4 +68,4 @@ class Pictures:
 
 def _path(source: str) -> Path:
     own = texture_path(source)
-    return own if own.is_file() else Path(source)
+    return own if os.path.isfile(own) else Path(source)

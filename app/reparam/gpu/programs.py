@@ -8,7 +8,7 @@ from typing import Any
 
 import moderngl
 
-from ..assets import ShaderSource, expand_shader
+from ..assets import FILE_LINES, ShaderSource, expand_shader
 from ..errors import GraphicsError
 from ..geometry.net import MAX_ORDER
 from ..geometry.normal import SINGULAR_SINE, SINGULAR_STEP
@@ -139,16 +139,16 @@ class Programs:
 
 
 # Mesa: `0:12(5): error: ...`   NVIDIA: `0(12) : error C0000: ...`   others: `ERROR: 0:12: ...`
-_PLACE = re.compile(r"(?:ERROR:\s*)?(\d+)(?::(\d+)|\((\d+)\))[^:]*:\s*(.+)")
+_PLACE = re.compile(r"(WARNING:\s*)?\d+(?::(\d+)|\((\d+)\))[^:\n]*:(?!\s*warning)\s*(.+)")
 
 
 def locate(log: str, sources: Mapping[str, ShaderSource]) -> str:
     """A compiler's log as one line, `file:line: message`, in terms of the files in shaders/."""
     stage = next((name for name in sources if name in log), None)
-    place = _PLACE.search(log)
+    place = next((found for found in _PLACE.finditer(log) if not found[1]), None)
     if stage is None or place is None:
         return "shader: " + " ".join(log.split())
     files = sources[stage].files
-    number, line = int(place[1]), place[2] or place[3]
+    number, line = divmod(int(place[2] or place[3]), FILE_LINES)
     name = files[number].name if number < len(files) else stage
     return f"{name}:{line}: {place[4].strip()}"

@@ -62,6 +62,7 @@ def _read_tessellated(painter: Painter, net: Array, level: int) -> Points:
     ctx.disable(moderngl.BLEND)
     painter.surfaces.tessellate(program, count, level)
     arrays = [np.frombuffer(layer.read(), np.float32).reshape(-1, 4)[:texels] for layer in layers]
+    ctx.extra.use()
     framebuffer.release()
     for layer in layers:
         layer.release()

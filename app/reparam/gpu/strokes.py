@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import moderngl
 import numpy as np
@@ -42,7 +43,6 @@ class Strokes:
         self._programs = programs
         self._evaluation = evaluation
         self._lines: Kept[Polylines] = Kept(_release)
-        self._parameters: dict[tuple[tuple[float, ...], ...], tuple[Array, Array]] = {}
         self._segment = ctx.buffer(np.array([0, -1, 0, 1, 1, -1, 1, 1], np.float32).tobytes())
         self._square = ctx.buffer(np.array([-1, -1, -1, 1, 1, -1, 1, 1], np.float32).tobytes())
 
@@ -62,7 +62,8 @@ class Strokes:
         lines = self._lines.get(layer.net, key, lambda: self._evaluate(layer))
         self._stroke(lines, camera, viewport, layer.color, layer.width * unit / 2.0)
         if layer.arrow:
-            tips = self._evaluation.read(layer.net, arrow_parameters(layer)).reshape(-1, 2, 4)
+            ends = arrow_parameters(layer.u, layer.v, layer.span)
+            tips = self._evaluation.read(layer.net, ends).reshape(-1, 2, 4)
             self._mark(
                 tips[:, 1], tips[:, 0], camera, viewport, layer.color, ARROW_SIZE * unit, ARROW=1
             )
@@ -78,10 +79,7 @@ class Strokes:
         self._mark(dots, dots, camera, viewport, layer.color, layer.dot * unit)
 
     def _evaluate(self, layer: IsoLines) -> Polylines:
-        key = (layer.u, layer.v, layer.span)
-        if key not in self._parameters:
-            self._parameters[key] = line_parameters(layer)
-        parameters, pens = self._parameters[key]
+        parameters, pens = line_parameters(layer.u, layer.v, layer.span)
         patches = patch_count(layer.net)
         points = self._evaluation.run(layer.net, parameters, range(patches))
         pen_buffer = self._ctx.buffer(np.tile(pens, patches).astype(np.float32).tobytes())
@@ -166,20 +164,31 @@ def _release(lines: Polylines) -> None:
     lines.pens.release()
 
 
-def line_parameters(layer: IsoLines) -> tuple[Array, Array]:
-    """(u, 1-u, v, 1-v) of all the layer's curves of one patch, and their pens."""
-    t = np.linspace(*layer.span, CURVE_SEGMENTS + 1)
-    curves = [np.stack([np.full_like(t, u), t], -1) for u in layer.u]
-    curves += [np.stack([t, np.full_like(t, v)], -1) for v in layer.v]
-    return _with_complements(_padded(np.concatenate(curves))), _pens([len(t)] * len(curves))
+Values = tuple[float, ...]
 
 
-def arrow_parameters(layer: IsoLines) -> Array:
+@lru_cache(maxsize=256)
+def line_parameters(u: Values, v: Values, span: tuple[float, float]) -> tuple[Array, Array]:
+    """(u, 1-u, v, 1-v) along the curves u = const and v = const of one patch, and their pens.
+
+    The same object for the same curves: it is uploaded once.
+    """
+    t = np.linspace(*span, CURVE_SEGMENTS + 1)
+    parameters = _with_complements(_padded(_along(u, v, t)))
+    return parameters, _pens([len(t)] * (len(u) + len(v)))
+
+
+@lru_cache(maxsize=256)
+def arrow_parameters(u: Values, v: Values, span: tuple[float, float]) -> Array:
     """Parameters of the last two points of each curve."""
-    t = np.array([layer.span[1] - 1e-3, layer.span[1]])
-    ends = [np.stack([np.full_like(t, u), t], -1) for u in layer.u]
-    ends += [np.stack([t, np.full_like(t, v)], -1) for v in layer.v]
-    return _with_complements(np.concatenate(ends))
+    return _with_complements(_along(u, v, np.array([span[1] - 1e-3, span[1]])))
+
+
+def _along(u: Values, v: Values, t: Array) -> Array:
+    """(u, v) of the points t of each curve, one curve after another."""
+    curves = [np.stack([np.full_like(t, value), t], -1) for value in u]
+    curves += [np.stack([t, np.full_like(t, value)], -1) for value in v]
+    return np.concatenate(curves)
 
 
 def net_legs(net: Array) -> tuple[Array, Array]:

@@ -82,12 +82,21 @@ def scene_names() -> list[str]:
 
 def load_scene(name: str) -> Scene:
     """The scene of that name; imports its module alone. Raises UsageError for an unknown name."""
-    if name not in (*scene_names(), FILE_SCENE):
+    if name not in scene_names():
         near = difflib.get_close_matches(name, scene_names(), 1)
         meant = f"; did you mean {near[0]}?" if near else ""
         raise UsageError(
             f"expected a scene ({', '.join(scene_names())}) or a .bv file, found {name!r}{meant}"
         )
+    return _import(name)
+
+
+def file_scene() -> Scene:
+    """The scene that shows a file; it takes a Body."""
+    return _import(FILE_SCENE)
+
+
+def _import(name: str) -> Scene:
     found = getattr(import_module(f"{__package__}.figures.{name}"), name)
     assert isinstance(found, Scene), f"scenes/figures/{name}.py defines no scene {name}"
     return found

@@ -10,11 +10,13 @@ GROUND = (0.10, 0.10, 0.12, 0.88)
 
 
 def draw_notice(labels: Labels, text: str, size: tuple[int, int]) -> None:
-    """One line in the lower left corner."""
+    """One line in the upper left corner, where figures have nothing."""
     em = _em(size)
     width = min(measure(text, round(em)) + 2 * em, size[0])
-    labels.box(0, 0, width, 1.9 * em, size, GROUND)
-    labels.text(text, (em, 0.95 * em), size, em, INK, anchor=(0.0, 0.5), widest=size[0] - 2 * em)
+    labels.box(0, size[1] - 1.9 * em, width, 1.9 * em, size, GROUND)
+    labels.text(
+        text, (em, size[1] - 0.95 * em), size, em, INK, anchor=(0.0, 0.5), widest=size[0] - 2 * em
+    )
 
 
 def draw_help(labels: Labels, size: tuple[int, int]) -> None:

@@ -26,10 +26,11 @@ from ..parameters import Range
 from ..registry import scene
 
 MAPS = {"identity": ALIGNED_IDENTITY, "r": R}
-CAPTIONS = {
-    "identity": "attached by the identity, (s, t) = (V, −U): the squares are squeezed",
-    "r": "attached by r itself, (s, t) = r(u, v): the squares stay square",
+ATTACHED = {
+    "identity": "attached by the identity, (s, t) = (V, −U)",
+    "r": "attached by r itself, (s, t) = r(u, v)",
 }
+ON_R = {"identity": "the squares are squeezed", "r": "the squares stay square"}
 FORMULA = "r(u, v) = ( V(3 − U²)/2, −U(3 − V²)/2 )    U = 2u − 1,  V = 2v − 1"
 
 
@@ -55,7 +56,12 @@ def fig5(
         ControlNet(net, palette.CONTROL_NET),
     )
     space = Space("physical", plane(-1.65, -1.5, 1.5, 1.65), layers)
-    return Figure((space,), (CAPTIONS[texture], FORMULA))
+    if morph == 1.0:
+        caption = (f"{ATTACHED[texture]}: {ON_R[texture]}", FORMULA)
+    else:
+        shape = f"drawn on (1 − w) (V, −U) + w r(u, v),   w = {morph:.2f}"
+        caption = (ATTACHED[texture], shape)
+    return Figure((space,), caption)
 
 
 @fig5.claims
