@@ -2,6 +2,8 @@
 # make test       style, types, then the quick tests
 # make test-slow  the tests that take minutes
 # make lint       style and types
+# make bench      our frames against others', as ratios in one run
+# make gallery    the README's pictures
 # make format     brings the code into style
 # make clean      removes the virtual environment and what the tools keep
 # PYTHON=python3.12 chooses another Python than python3.
@@ -19,7 +21,7 @@ endif
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: run test test-slow lint format clean run-packages test-packages
+.PHONY: run test test-slow bench gallery lint format clean run-packages test-packages
 
 run: run-packages $(VENV)/run
 	@$(BIN)/reparam
@@ -34,6 +36,13 @@ lint: $(VENV)/test
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/mypy
+
+bench: run-packages $(VENV)/test
+	$(BIN)/python tests/benchmarks/static_mesh.py
+	$(BIN)/python tests/benchmarks/cold_start.py
+
+gallery: run-packages $(VENV)/run
+	$(BIN)/python -m reparam.gallery docs/gallery 560x400
 
 format: $(VENV)/test
 	$(BIN)/ruff check --fix

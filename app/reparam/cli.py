@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import re
 import sys
 from collections.abc import Sequence
@@ -159,6 +158,8 @@ def run_list(options: argparse.Namespace) -> int:
 
     scenes = [*(load_scene(name) for name in scene_names()), file_scene()]
     if options.json:
+        import json
+
         rows = [{"scene": s.name, "title": s.title, "figure": s.figure,
                  "parameters": [p.row() for p in (*s.parameters.values(), *DISPLAY.values())]}
                 for s in scenes]  # fmt: skip
@@ -190,6 +191,8 @@ def run_check(options: argparse.Namespace) -> int:
                 print(f"       expected {verdict.expected}  measured {verdict.measured}"
                       f"  tolerance {verdict.tolerance:g}")  # fmt: skip
     if options.json:
+        import json
+
         print(json.dumps([asdict(verdict) for verdict in verdicts], indent=2))
     return 0 if all(verdict.ok for verdict in verdicts) else 1
 
@@ -200,6 +203,8 @@ def run_doctor(options: argparse.Namespace) -> int:
 
     report = examine()
     if options.json:
+        import json
+
         print(json.dumps(report, indent=2))
     else:
         for name, value in report.items():

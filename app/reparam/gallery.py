@@ -1,7 +1,8 @@
-"""The figures as files."""
+"""The figures as files: `python -m reparam.gallery FOLDER WxH`."""
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -28,3 +29,9 @@ def write_figures(folder: Path, size: tuple[int, int]) -> list[Path]:
         save_picture(studio.draw(subject, size), path)
         written.append(path)
     return written
+
+
+if __name__ == "__main__":
+    from .cli import parse_size
+
+    write_figures(Path(sys.argv[1]), parse_size(sys.argv[2]))

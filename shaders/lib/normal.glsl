@@ -17,24 +17,29 @@ float largest_component(vec3 v) {
     return max(max(abs(v.x), abs(v.y)), abs(v.z));
 }
 
-// Zero too where one tangent is less than `least` of the other: at a pole it is rounding alone.
-vec3 cross_of_tangents(sampler2D net, int patch_index, ivec2 degree, vec4 uv, vec4 point,
-                       float least) {
+// The sine between the tangents, as a vector. Zero too where one of them is tiny beside the
+// other: at a pole it is rounding alone.
+vec3 cross_of_tangents(sampler2D net, int patch_index, ivec2 degree, vec4 uv, vec4 point) {
     vec4 along_u, along_v;
     evaluate_derivatives(net, patch_index, degree, uv, along_u, along_v);
     vec3 p_u = projected_derivative(point, along_u), p_v = projected_derivative(point, along_v);
     float size_u = largest_component(p_u), size_v = largest_component(p_v);
-    if (min(size_u, size_v) <= least * max(size_u, size_v))
+    if (min(size_u, size_v) <= SINGULAR_SINE * max(size_u, size_v))
         return vec3(0.0);
     return cross(safe_normalize(p_u), safe_normalize(p_v));
 }
 
+bool is_singular(vec3 normal) {
+    return dot(normal, normal) <= SINGULAR_SINE * SINGULAR_SINE;
+}
+
 vec3 surface_normal(sampler2D net, int patch_index, ivec2 degree, vec4 uv, vec4 point) {
-    vec3 normal = cross_of_tangents(net, patch_index, degree, uv, point, SINGULAR_SINE);
-    if (dot(normal, normal) <= SINGULAR_SINE * SINGULAR_SINE) {
-        uv = mix(uv, vec4(0.5), SINGULAR_STEP);
-        point = evaluate(net, patch_index, degree, uv);
-        normal = cross_of_tangents(net, patch_index, degree, uv, point, 0.0);
+    vec3 normal = cross_of_tangents(net, patch_index, degree, uv, point);
+    // A loop and not an `if`: software rasterisers execute an `if` for every vertex.
+    for (float inward = SINGULAR_STEP; is_singular(normal) && inward < 1.0; inward *= SINGULAR_FACTOR) {
+        vec4 inside = mix(uv, vec4(0.5), inward);
+        vec4 nearby = evaluate(net, patch_index, degree, inside);
+        normal = cross_of_tangents(net, patch_index, degree, inside, nearby);
     }
     return dot(normal, normal) > 0.0 ? normalize(normal) : vec3(0.0, 0.0, 1.0);
 }

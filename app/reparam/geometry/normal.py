@@ -10,7 +10,8 @@ from .evaluate import evaluate, evaluate_derivatives
 Array = NDArray[np.float64]
 
 SINGULAR_SINE = 1e-5  # below this sine of the angle between p_u and p_v: look for the limit
-SINGULAR_STEP = 1e-3  # how far towards the patch's centre, in parameters
+SINGULAR_STEP = 1e-3  # how far towards the patch's centre, of the way there
+SINGULAR_FACTOR = 30.0  # and how much further if it is singular there too
 
 
 def safe_normalize(vectors: Array) -> Array:
@@ -28,31 +29,36 @@ def projected_derivative(points: Array, derivatives: Array) -> Array:
     )
 
 
-def cross_of_tangents(net: Array, u: ArrayLike, v: ArrayLike, least: float = 0.0) -> Array:
+def cross_of_tangents(net: Array, u: ArrayLike, v: ArrayLike) -> Array:
     """Cross product of the unit tangents along u and v; its length is the sine between them.
 
-    Zero too where one tangent is less than `least` of the other: at a pole it is rounding alone.
+    Zero too where one tangent is tiny beside the other: at a pole it is rounding alone.
     """
     points = evaluate(net, u, v)
     along_u, along_v = (projected_derivative(points, d) for d in evaluate_derivatives(net, u, v))
     sizes = np.stack([np.abs(along_u).max(-1), np.abs(along_v).max(-1)])
-    tiny = sizes.min(0) <= least * sizes.max(0)
-    normal = np.cross(safe_normalize(along_u), safe_normalize(along_v))
-    return np.where(tiny[..., None], 0.0, normal)
+    tiny = sizes.min(0) <= SINGULAR_SINE * sizes.max(0)
+    return np.where(
+        tiny[..., None], 0.0, np.cross(safe_normalize(along_u), safe_normalize(along_v))
+    )
 
 
 def surface_normal(net: Array, u: ArrayLike, v: ArrayLike) -> Array:
     """p_u x p_v normalised (GL_AUTO_NORMAL), shape (..., 3).
 
     Where it vanishes, at a pole or at a corner of r where p_u = -p_v, the normal a little
-    inside is taken: the limit instead of OpenGL's zero vector. Where there is none either
+    further inside is taken: the limit instead of OpenGL's zero vector. Where there is none
     (all points collinear), any unit vector, never NaN.
     """
     u, v = np.asarray(u, dtype=np.float64), np.asarray(v, dtype=np.float64)
-    normal = cross_of_tangents(net, u, v, SINGULAR_SINE)
-    singular = np.linalg.norm(normal, axis=-1, keepdims=True) <= SINGULAR_SINE
-    if singular.any():
-        u, v = (t + SINGULAR_STEP * (0.5 - t) for t in (u, v))
-        normal = np.where(singular, cross_of_tangents(net, u, v), normal)
+    normal = cross_of_tangents(net, u, v)
+    inward = SINGULAR_STEP
+    while inward < 1.0:
+        singular = np.linalg.norm(normal, axis=-1, keepdims=True) <= SINGULAR_SINE
+        if not singular.any():
+            break
+        inside = (t + inward * (0.5 - t) for t in (u, v))
+        normal = np.where(singular, cross_of_tangents(net, *inside), normal)
+        inward *= SINGULAR_FACTOR
     nowhere = ~normal.any(-1, keepdims=True)
     return safe_normalize(np.where(nowhere, np.array([0.0, 0.0, 1.0]), normal))

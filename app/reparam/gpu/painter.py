@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import moderngl
 import numpy as np
@@ -17,11 +19,13 @@ from ..scenes.display import Display
 from ..scenes.layers import ControlNet, Figure, IsoLines, Label, Layer, Patches, Space
 from .context import Capabilities, capabilities
 from .evaluation import Evaluation
-from .labels import Labels
 from .programs import Programs
-from .strokes import Strokes
 from .surfaces import Surfaces
 from .targets import Target
+
+if TYPE_CHECKING:
+    from .labels import Labels
+    from .strokes import Strokes
 
 Array = NDArray[np.float64]
 
@@ -98,8 +102,20 @@ class Painter:
         self.programs = Programs(ctx)
         self.evaluation = Evaluation(ctx, self.programs)
         self.surfaces = Surfaces(ctx, self.programs, self.evaluation, self.capabilities)
-        self.strokes = Strokes(ctx, self.programs, self.evaluation)
-        self.labels = Labels(ctx, self.programs)
+
+    @cached_property
+    def strokes(self) -> Strokes:
+        """Lines and marks; a plain picture starts without them."""
+        from .strokes import Strokes
+
+        return Strokes(self.ctx, self.programs, self.evaluation)
+
+    @cached_property
+    def labels(self) -> Labels:
+        """Text; a plain picture starts without it."""
+        from .labels import Labels
+
+        return Labels(self.ctx, self.programs)
 
     def draw(
         self,
@@ -188,8 +204,10 @@ class Painter:
             )
 
     def _end_frame(self) -> None:
-        for part in (self.evaluation, self.surfaces, self.strokes):
-            part.sweep()
+        self.evaluation.sweep()
+        self.surfaces.sweep()
+        if "strokes" in self.__dict__:
+            self.strokes.sweep()
         error = self.ctx.error
         if error != "GL_NO_ERROR":
             raise GraphicsError(f"OpenGL: expected no error after drawing, found {error}")

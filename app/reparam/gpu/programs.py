@@ -11,7 +11,7 @@ import moderngl
 from ..assets import FILE_LINES, ShaderSource, expand_shader
 from ..errors import GraphicsError
 from ..geometry.net import MAX_ORDER
-from ..geometry.normal import SINGULAR_SINE, SINGULAR_STEP
+from ..geometry.normal import SINGULAR_FACTOR, SINGULAR_SINE, SINGULAR_STEP
 from .nets import NET_WIDTH
 
 STAGES = {
@@ -49,6 +49,7 @@ def stage_source(name: str, defines: Defines, version: int) -> ShaderSource:
         "NET_WIDTH": NET_WIDTH,
         "SINGULAR_SINE": SINGULAR_SINE,
         "SINGULAR_STEP": SINGULAR_STEP,
+        "SINGULAR_FACTOR": SINGULAR_FACTOR,
         **defines,
     }
     text = "".join(f"#define {key} {value}\n" for key, value in constants.items())

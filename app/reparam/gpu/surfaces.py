@@ -87,7 +87,8 @@ class Surfaces:
             defines["LIT"] = 1
         return defines
 
-    def _set_common(self, program: Program, layer: Patches, camera: Camera, color: Color) -> None:
+    def set_common(self, program: Program, layer: Patches, camera: Camera, color: Color) -> None:
+        """The uniforms of patch.frag and of what both evaluators hand to it."""
         program.set(
             clip_from_model=camera.clip_from_model().T.astype(np.float32).tobytes(),
             color=(*color, 1.0),
@@ -121,7 +122,7 @@ class Surfaces:
             content = [(batch.vertices, points, *names)]
             if maps is not None:
                 content.append((next(maps).vertices, "4f", "map"))
-            self._set_common(program, layer, camera, color)
+            self.set_common(program, layer, camera, color)
             if "TEXTURED" in defines:
                 program.set(level=level)
             vertices = self._ctx.vertex_array(
@@ -182,7 +183,7 @@ class Surfaces:
                 texture_degree=orders(layer.texture.net),
                 texture_stride=0 if patch_count(layer.texture.net) == 1 else 1,
             )
-        self._set_common(program, layer, camera, color)
+        self.set_common(program, layer, camera, color)
         self.tessellate(program, patch_count(layer.net), level)
 
     def tessellate(self, program: Program, count: int, level: int) -> None:

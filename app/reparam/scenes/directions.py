@@ -9,9 +9,9 @@ from ..geometry.evaluate import evaluate, project
 from . import palette
 from .layers import Color, IsoLines, Label, Layer
 
-OUTSIDE = -0.045  # how far beyond the edge, in parameters: the patch is extrapolated there
+OUTSIDE = -0.06  # how far beyond the edge, in parameters: the patch is extrapolated there
 SPAN = (0.04, 0.30)
-LETTER = 0.36
+LETTER = 0.40
 
 
 def directions(net: NDArray[np.float64]) -> tuple[Layer, ...]:

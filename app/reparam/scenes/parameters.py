@@ -6,7 +6,6 @@ def fig5(texture: Literal["identity", "r"] = "identity",
 
 from __future__ import annotations
 
-import difflib
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -120,6 +119,8 @@ def find(parameters: Mapping[str, Parameter], name: str) -> Parameter:
     """The parameter of that name. Raises UsageError that suggests the nearest one."""
     if name in parameters:
         return parameters[name]
-    near = difflib.get_close_matches(name, parameters, 1)
+    from difflib import get_close_matches
+
+    near = get_close_matches(name, parameters, 1)
     meant = f"; did you mean {near[0]}?" if near else ""
     raise UsageError(f"--set: expected one of {', '.join(parameters)}, found {name!r}{meant}")

@@ -6,20 +6,21 @@ A new file there, with a function of the module's name, is a new entry in the vi
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..errors import UsageError
-from .claims import Claim
 from .layers import Figure
 from .parameters import Parameter, parameters_of
 
-Claims = Callable[[], Iterator[Claim]]
+if TYPE_CHECKING:
+    from .claims import Claim
+
+Claims = Callable[[], "Iterator[Claim]"]
 
 
 @dataclass
@@ -83,7 +84,9 @@ def scene_names() -> list[str]:
 def load_scene(name: str) -> Scene:
     """The scene of that name; imports its module alone. Raises UsageError for an unknown name."""
     if name not in scene_names():
-        near = difflib.get_close_matches(name, scene_names(), 1)
+        from difflib import get_close_matches
+
+        near = get_close_matches(name, scene_names(), 1)
         meant = f"; did you mean {near[0]}?" if near else ""
         raise UsageError(
             f"expected a scene ({', '.join(scene_names())}) or a .bv file, found {name!r}{meant}"

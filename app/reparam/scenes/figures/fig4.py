@@ -32,16 +32,16 @@ def fig4(
     net = R if morph == 1.0 else planar_maps.morph(R, morph)
     domain = (
         *mapped(DOMAIN, palette.DOMAIN, lines),
-        title("the domain, (u, v) in [0,1]²", 0.5, 1.0),
+        title("the domain, (u, v) in [0,1]²", 0.5, 1.08),
     )
     image = (
         *mapped(net, palette.IMAGE, lines),
-        title("the image, (x, y) = r(u, v)" if morph == 1.0 else "on the way to r", 0.0, 1.5),
+        title("the image, (x, y) = r(u, v)" if morph == 1.0 else "on the way to r", 0.0, 1.65),
         ControlNet(net, palette.CONTROL_NET),
     )
     spaces = (
-        Space("domain", plane(-0.12, -0.08, 1.08, 1.2), domain),
-        Space("physical", plane(-1.62, -1.56, 1.56, 1.8), image),
+        Space("domain", plane(-0.14, -0.04, 1.04, 1.24), domain),
+        Space("physical", plane(-1.7, -1.52, 1.52, 1.98), image),
     )
     return Figure(spaces, (f"(1 − w) (V, −U) + w r(u, v),   w = {morph:.2f}",))
 
@@ -58,7 +58,7 @@ def mapped(net: Array, color: Color, lines: int) -> tuple[Layer, ...]:
 
 
 def title(text: str, x: float, y: float) -> Label:
-    return Label(text, (x, y, 0.0), offset=(0.0, 22.0), anchor=(0.5, 0.0), size=17.0)
+    return Label(text, (x, y, 0.0), offset=(0.0, 10.0), anchor=(0.5, 0.0), size=17.0)
 
 
 @fig4.claims
