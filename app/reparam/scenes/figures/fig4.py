@@ -36,7 +36,7 @@ def fig4(
     )
     image = (
         *mapped(net, palette.IMAGE, lines),
-        title("the image, (x, y) = r(u, v)" if morph == 1.0 else "on the way to r", 0.0, 1.65),
+        title("the image, (x, y) = r(u, v)" if morph == 1.0 else "on the way to r", 0.0, 1.72),
         ControlNet(net, palette.CONTROL_NET),
     )
     spaces = (

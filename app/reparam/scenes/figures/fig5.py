@@ -30,7 +30,8 @@ ATTACHED = {
     "identity": "attached by the identity, (s, t) = (V, −U)",
     "r": "attached by r itself, (s, t) = r(u, v)",
 }
-ON_R = {"identity": "the squares are squeezed", "r": "the squares stay square"}
+CHECKS_ON_R = {"identity": "the squares are squeezed", "r": "the squares stay square"}
+IMAGE_ON_R = {"identity": "the picture is squeezed", "r": "the picture stays as it was"}
 FORMULA = "r(u, v) = ( V(3 − U²)/2, −U(3 − V²)/2 )    U = 2u − 1,  V = 2v − 1"
 
 
@@ -57,7 +58,8 @@ def fig5(
     )
     space = Space("physical", plane(-1.65, -1.5, 1.5, 1.65), layers)
     if morph == 1.0:
-        caption = (f"{ATTACHED[texture]}: {ON_R[texture]}", FORMULA)
+        seen = (IMAGE_ON_R if image else CHECKS_ON_R)[texture]
+        caption = (f"{ATTACHED[texture]}: {seen}", FORMULA)
     else:
         shape = f"drawn on (1 − w) (V, −U) + w r(u, v),   w = {morph:.2f}"
         caption = (ATTACHED[texture], shape)

@@ -28,11 +28,12 @@ def surface(
     points = sample_surface(body.nets)
     spatial = bool(np.any(body.nets[..., 2] != 0.0))
     texture_net = body.nets if texture == "r" else identity(body)
+    outline = min(1.2, 30.0 / len(body.nets) ** 0.5)  # many patches would be outlines alone
     layers = (
         Patches(
             body.nets, Texture(texture_net, attachment(checks, image, wrap, filter)), lit=spatial
         ),
-        IsoLines(body.nets, u=(0.0, 1.0), v=(0.0, 1.0), color=palette.INK, width=1.2),
+        IsoLines(body.nets, u=(0.0, 1.0), v=(0.0, 1.0), color=palette.INK, width=outline),
         ControlNet(body.nets, palette.CONTROL_NET),
     )
     caption = {
