@@ -17,6 +17,8 @@ NOTICE_SECONDS = 2.5
 ANIMATION_SECONDS = 3.0  # from one end to the other
 GLIDE_SECONDS = 0.7
 
+Motion = Callable[[float], float | None]  # a value by the clock, None when it is over
+
 
 class State:
     """A subject with its views. `changed` is set whenever the picture must be drawn again."""
@@ -31,7 +33,7 @@ class State:
         self.notice = ""
         self._notice_until = 0.0
         self._now = 0.0
-        self._motion: Callable[[float], float | None] | None = None
+        self._motion: tuple[str, Motion] | None = None  # of the parameter of that name
         self._visited: dict[str, tuple[Subject, dict[str, View]]] = {}
         self._opened = subject if subject.data else None
 
@@ -49,11 +51,12 @@ class State:
     def advance(self, now: float) -> None:
         """The clock stands at `now` seconds."""
         if self._motion is not None:
-            value = self._motion(now)
+            name, motion = self._motion
+            value = motion(now)
             if value is None:
                 self._motion = None
             else:
-                self._set(self.subject.scene.animates or "", value)
+                self._set(name, value)
         self._now = now
         if self.notice and now >= self._notice_until:
             self.notice = ""
@@ -90,8 +93,8 @@ class State:
     def change_level(self, direction: int) -> None:
         """The next finer or coarser tessellation level."""
         now = self.subject.value("level")
-        finer = [n for n in LEVELS if n > now] or [LEVELS[-1]]
-        coarser = [n for n in LEVELS if n < now] or [LEVELS[0]]
+        finer = [n for n in LEVELS if n > now] or [now]
+        coarser = [n for n in LEVELS if n < now] or [now]
         self._tell("level", finer[0] if direction > 0 else coarser[-1])
 
     def next_evaluator(self) -> None:
@@ -135,13 +138,16 @@ class State:
         """Move the scene's parameter to and fro, or stop."""
         name = self.subject.scene.animates
         if self._motion is not None:
-            self._motion = None
-            self.say(f"{name} = {self.subject.value(name or ''):.2f}")
+            moved, self._motion = self._motion[0], None
+            self.say(f"{moved} = {self.subject.value(moved):.2f}")
         elif name is None or not self._has(name):
             self.say(f"{self.subject.title}: nothing here is animated")
         else:
             start, phase = self._now, _unsmooth(self._fraction(name))
-            self._motion = lambda now: self._at(name, phase + (now - start) / ANIMATION_SECONDS)
+            self._motion = (
+                name,
+                lambda now: self._at(name, phase + (now - start) / ANIMATION_SECONDS),
+            )
             self.say(f"animating {name}")
 
     def glide(self) -> None:
@@ -157,7 +163,7 @@ class State:
                 return None
             return self._at("morph", min(1.0, phase + way) if end else max(0.0, phase - way))
 
-        self._motion = motion
+        self._motion = ("morph", motion)
         self.say(f"morph to {end:.0f}")
 
     # Mouse ----------------------------------------------------------------------------------

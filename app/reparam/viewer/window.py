@@ -17,14 +17,16 @@ from ..gpu.painter import Painter, Panel
 from ..gpu.targets import Target
 from ..subject import Subject
 from .keys import KEYS
+from .mouse import Mouse
 from .overlay import draw_help, draw_notice
 from .screen import screen_missing
 from .state import State
 
 FRAME_SECONDS = 1 / 60
-WHEEL = 1.15  # zoom a notch of the wheel
-DEGREES_A_WINDOW = 200.0  # of orbit, dragging across the window's shorter side
 HINT = "T: the other texture map   M: morph   H: all keys"
+
+# What a scene, or a shader just edited, may raise: shown, and the window stays.
+UNDRAWABLE = (ReparamError, ValueError, OSError, AssertionError, moderngl.Error)
 
 # Names of the table that are not GLFW's own.
 NAMED = {"Esc": "ESCAPE", "PageDown": "PAGE_DOWN", "PageUp": "PAGE_UP"}
@@ -37,9 +39,8 @@ def show(subject: Subject, size: tuple[int, int], evaluator: str | None) -> int:
     """Open the window and stay until it is closed. Raises GraphicsError where there is none."""
     missing = screen_missing()
     if missing is not None:
-        raise GraphicsError(
-            f"{missing}; without one: reparam render {subject.scene.name} -o OUT.png"
-        )
+        name = "FILE" if subject.data else subject.scene.name
+        raise GraphicsError(f"{missing}; without one: reparam render {name} -o OUT.png")
     window = open_window(size, f"reparam: {subject.title}")
     try:
         Viewer(window, subject, evaluator).run()
@@ -80,24 +81,21 @@ class Viewer:
         evaluators = ("vertex", "tessellation") if capabilities.tessellation else ("vertex",)
         self.state = State(subject, evaluators, capabilities.evaluator(evaluator))
         self._target: Target | None = None
+        self._samples = 0  # asked for when the target was made
         self._panels: list[Panel] = []
-        self._mouse = (0.0, 0.0)
-        self._held: tuple[Panel, int] | None = None
+        self._mouse = Mouse(window, self.state, lambda: self._panels)
         self._windowed: tuple[int, int, int, int] | None = None
+        self._began = time.perf_counter()
         self._actions = self._bind_keys()
         glfw.set_key_callback(window, self._on_key)
-        glfw.set_cursor_pos_callback(window, self._on_move)
-        glfw.set_mouse_button_callback(window, self._on_button)
-        glfw.set_scroll_callback(window, self._on_scroll)
         glfw.set_framebuffer_size_callback(window, self._on_damage)
         glfw.set_window_refresh_callback(window, self._on_damage)
         self.state.say(HINT, 6.0)
 
     def run(self) -> None:
         """Until the window is closed: wait, and draw only what changed."""
-        began = time.perf_counter()
         while not glfw.window_should_close(self._window):
-            self.state.advance(time.perf_counter() - began)
+            self._tick()
             drawn = self._draw() if self.state.changed else 0.0
             if self.state.moving:
                 glfw.wait_events_timeout(max(1e-3, FRAME_SECONDS - drawn))
@@ -105,6 +103,9 @@ class Viewer:
                 glfw.wait_events_timeout(max(1e-3, self.state.seconds_of_notice()))
             else:
                 glfw.wait_events()
+
+    def _tick(self) -> None:
+        self.state.advance(time.perf_counter() - self._began)
 
     # Drawing --------------------------------------------------------------------------------
 
@@ -118,8 +119,9 @@ class Viewer:
         glfw.set_window_title(self._window, f"reparam: {self.state.subject.title}")
         try:
             target = self._draw_frame(size)
-        except (ReparamError, ValueError) as error:
+        except UNDRAWABLE as error:
             self.state.say(str(error), 8.0)
+            self.state.changed = False  # what can be shown is presented now
             if self._target is None or self._target.size != size:
                 return 0.0
             target = self._target
@@ -129,12 +131,8 @@ class Viewer:
 
     def _draw_frame(self, size: tuple[int, int]) -> Target:
         subject = self.state.subject
-        if self._target is None or self._target.size != size:
-            if self._target is not None:
-                self._target.release()
-            self._target = Target(
-                self._ctx, size, subject.display.samples, self._painter.capabilities
-            )
+        self._renew_target(size, subject.display.samples)
+        assert self._target is not None
         self._panels = self._painter.draw(
             subject.figure(),
             self._target,
@@ -143,6 +141,16 @@ class Viewer:
             views=self.state.views,
         )
         return self._target
+
+    def _renew_target(self, size: tuple[int, int], samples: int) -> None:
+        """A target of that size and with that many samples, the present one if it is so."""
+        if self._target is not None and (self._target.size, self._samples) == (size, samples):
+            return
+        if self._target is not None:
+            self._target.release()
+            self._target = None
+        self._target = Target(self._ctx, size, samples, self._painter.capabilities)
+        self._samples = samples
 
     def _present(self, target: Target) -> None:
         """The frame onto the screen, and over it what only the window has."""
@@ -177,10 +185,11 @@ class Viewer:
     def _on_key(self, _: Any, key: int, scancode: int, action: int, mods: int) -> None:
         if action == glfw.RELEASE or mods & (glfw.MOD_CONTROL | glfw.MOD_ALT | glfw.MOD_SUPER):
             return
-        name = key_name(key, scancode)
-        if name in self._actions:
-            method, arguments = self._actions[name]
-            method(*arguments)
+        method, arguments = self._actions.get(key_name(key, scancode), (None, ()))
+        if method is None or (action == glfw.REPEAT and not arguments):
+            return  # a key held down repeats only what goes on: levels and pages
+        self._tick()  # the clock stood still while the window waited for this key
+        method(*arguments)
 
     def screenshot(self) -> None:
         """The frame, without help or notice, into the next free file of the current folder."""
@@ -202,7 +211,7 @@ class Viewer:
         try:
             self._painter.reload_shaders()
             self.state.say("shaders reloaded")
-        except GraphicsError as error:
+        except UNDRAWABLE as error:
             self.state.say(str(error), 15.0)
 
     def toggle_full_screen(self) -> None:
@@ -227,56 +236,6 @@ class Viewer:
     def quit(self) -> None:
         """Close the window."""
         glfw.set_window_should_close(self._window, True)
-
-    # Mouse ----------------------------------------------------------------------------------
-
-    def _pixel(self, x: float, y: float) -> tuple[float, float]:
-        """Framebuffer pixels, y up, from window coordinates."""
-        width, height = glfw.get_window_size(self._window)
-        across, up = glfw.get_framebuffer_size(self._window)
-        return x * across / max(1, width), up - y * up / max(1, height)
-
-    def _panel_at(self, x: float, y: float) -> Panel | None:
-        for panel in self._panels:
-            region = panel.region
-            inside = 0 <= x - region.left < region.width and 0 <= y - region.bottom < region.height
-            if inside:
-                return panel
-        return None
-
-    def _on_button(self, _: Any, button: int, action: int, mods: int) -> None:
-        if action == glfw.PRESS:
-            panel = self._panel_at(*self._mouse)
-            moves = button != glfw.MOUSE_BUTTON_LEFT or bool(mods & glfw.MOD_SHIFT)
-            self._held = (panel, int(moves)) if panel else None
-        else:
-            self._held = None
-
-    def _on_move(self, _: Any, x: float, y: float) -> None:
-        before, self._mouse = self._mouse, self._pixel(x, y)
-        if self._held is None:
-            return
-        panel, moves = self._held
-        dx, dy = self._mouse[0] - before[0], self._mouse[1] - before[1]
-        if panel.space.spatial and not moves:
-            turn = DEGREES_A_WINDOW / min(panel.region.width, panel.region.height)
-            self.state.orbit(panel.space.name, -dx * turn, -dy * turn)
-        else:
-            unit = self._model_units(panel)
-            self.state.pan(panel.space.name, dx * unit, dy * unit)
-
-    def _on_scroll(self, _: Any, __: float, notches: float) -> None:
-        panel = self._panel_at(*self._mouse)
-        if panel is not None:
-            region, unit = panel.region, self._model_units(panel)
-            x = (self._mouse[0] - region.left - region.width / 2) * unit
-            y = (self._mouse[1] - region.bottom - region.height / 2) * unit
-            self.state.zoom(panel.space.name, WHEEL**notches, x, y)
-
-    def _model_units(self, panel: Panel) -> float:
-        """Model units a pixel, now."""
-        current = next((p for p in self._panels if p.space.name == panel.space.name), panel)
-        return 2.0 * current.camera.half_height / current.region.height
 
     def _on_damage(self, *_: Any) -> None:
         self.state.changed = True
