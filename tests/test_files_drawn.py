@@ -57,7 +57,7 @@ def draw(studio: Studio, path: Path, *settings: str) -> NDArray[np.uint8]:
 
 
 def covered(picture: NDArray[np.uint8]) -> Mask:
-    return ~(picture == (255, 0, 255)).all(-1)
+    return ~(picture == (0, 0, 255)).all(-1)
 
 
 def grid(path: Path, steps: int) -> Array:

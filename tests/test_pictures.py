@@ -27,7 +27,7 @@ Mask = NDArray[np.bool_]
 MARGIN = 1.08  # of the frame about the patch's box
 WHOLE = 3.0 * MARGIN  # side of a square plain picture of r
 EXACT = {"filter": "nearest", "samples": 1}
-GROUND = np.array([255.0, 0.0, 255.0])
+GROUND = np.array([0.0, 0.0, 255.0])
 _TILE = np.asarray(Image.open(texture_path("checkerboard")).convert("RGB"), float)
 LIGHT, DARK = _TILE[0, 0], _TILE[-1, 0]
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from PIL import Image
 
 FOLDER = Path(__file__).parent
-DARK, LIGHT = (0, 114, 178), (255, 252, 245)
+DARK, LIGHT = (0, 128, 196), (255, 252, 245)
 
 
 def checkerboard(cell: int = 256) -> Image.Image:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import posixpath
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -33,31 +35,36 @@ class ShaderSource:
     """One stage, expanded. `#line S * FILE_LINES + N` is line N of `files[S]`."""
 
     text: str
-    files: tuple[Path, ...]
+    files: tuple[str, ...]
 
 
-def expand_shader(name: str, preamble: str = "") -> ShaderSource:
-    """shaders/NAME with each #include expanded once, after `preamble` (#version, #define)."""
-    files: list[Path] = []
+def read_shaders() -> dict[str, str]:
+    """The texts of all files in shaders/ by their names, as `lib/bernstein.glsl`."""
+    folder = root() / "shaders"
+    files = sorted(path for path in folder.rglob("*.*") if path.is_file())
+    return {path.relative_to(folder).as_posix(): path.read_text("utf-8") for path in files}
+
+
+def expand_shader(name: str, texts: Mapping[str, str], preamble: str = "") -> ShaderSource:
+    """A file of `read_shaders`, each #include expanded once, after the preamble."""
+    files: list[str] = []
     lines = [preamble.rstrip("\n")] if preamble else []
-    _expand(root() / "shaders" / name, files, lines)
+    _expand(name, texts, files, lines)
     return ShaderSource("\n".join(lines) + "\n", tuple(files))
 
 
-def _expand(path: Path, files: list[Path], lines: list[str]) -> None:
+def _expand(name: str, texts: Mapping[str, str], files: list[str], lines: list[str]) -> None:
     number = len(files)
-    files.append(path)
+    files.append(name)
     lines.append(f"#line {number * FILE_LINES + 1}")
-    for i, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
+    for i, line in enumerate(texts[name].splitlines(), start=1):
         include = _INCLUDE.match(line)
         if include is None:
             lines.append(line)
             continue
-        target = (path.parent / include[1]).resolve()
-        if not target.is_file():
-            raise GraphicsError(
-                f"{path.name}:{i}: expected a file to include, found no {include[1]}"
-            )
+        target = posixpath.normpath(posixpath.join(posixpath.dirname(name), include[1]))
+        if target not in texts:
+            raise GraphicsError(f"{name}:{i}: expected a file to include, found no {include[1]}")
         if target not in files:
-            _expand(target, files, lines)
+            _expand(target, texts, files, lines)
         lines.append(f"#line {number * FILE_LINES + i + 1}")

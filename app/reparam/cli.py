@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import os
 import re
 import sys
 from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 from . import __version__
 from .errors import ReparamError, UsageError
@@ -28,7 +29,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command. The exit code: 0 good, 1 could not, 2 wrong words, 3 a bad file."""
     options = parser().parse_args(arguments)
     try:
-        return int(options.run(options))
+        code = int(options.run(options))
+        sys.stdout.flush()
+        return code
     except ReparamError as error:
         if options.debug:
             raise
@@ -36,11 +39,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return error.exit_code
     except KeyboardInterrupt:
         return 130
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # or exit complains again
+        return 0
+
+
+class _Parser(argparse.ArgumentParser):
+    """Wrong words get one line, as all errors do."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(
+            UsageError.exit_code, f"{self.prog}: {message}; `{self.prog} --help` tells more\n"
+        )
 
 
 def parser() -> argparse.ArgumentParser:
     """All commands with their options."""
-    top = argparse.ArgumentParser(prog="reparam", description=ABOUT)
+    top = _Parser(prog="reparam", description=ABOUT)
     top.add_argument("--version", action="version", version=f"reparam {__version__}")
     top.add_argument("--debug", action="store_true", help="show a traceback with an error")
     top.set_defaults(run=run_default)
@@ -107,9 +122,13 @@ def parse_size(text: str) -> tuple[int, int]:
 
 
 def _subject(options: argparse.Namespace) -> Subject:
-    from .subject import open_subject
+    from .subject import open_subject, without_bad_pictures
 
-    return open_subject(options.subject).assigned(options.assignments)
+    subject = open_subject(options.subject).assigned(options.assignments)
+    subject, warnings = without_bad_pictures(subject)
+    for warning in warnings:
+        print(f"reparam: {warning}", file=sys.stderr)
+    return subject
 
 
 def run_default(options: argparse.Namespace) -> int:
@@ -145,8 +164,6 @@ def run_render(options: argparse.Namespace) -> int:
 
     studio = Studio(options.evaluator)
     picture = studio.draw(subject, size, plain=options.plain)
-    for warning in studio.warnings():
-        print(f"reparam: {warning}", file=sys.stderr)
     save_picture(picture, output)
     return 0
 

@@ -45,7 +45,3 @@ class Studio:
         for name, value in values.items():
             subject = subject.changed(name, value)
         return self.draw(subject, size, plain=True)
-
-    def warnings(self) -> list[str]:
-        """What could not be had and was replaced: pictures that could not be read."""
-        return self.painter.surfaces.pictures.warnings

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from .errors import UsageError
+from .errors import FileFormatError, UsageError
 from .scenes.display import Display
 from .scenes.layers import Figure
 from .scenes.parameters import Parameter, find, parameters_of
@@ -56,6 +56,21 @@ class Subject:
             parameter = find(self.parameters(), name)
             subject = subject.changed(name, parameter.parse(text))
         return subject
+
+
+def without_bad_pictures(subject: Subject) -> tuple[Subject, list[str]]:
+    """The subject with each picture that cannot be read put back, and a warning for each."""
+    warnings = []
+    for name, parameter in subject.scene.parameters.items():
+        if parameter.picture and subject.values[name]:
+            from .files.picture import find_picture, read_picture
+
+            try:
+                read_picture(find_picture(subject.values[name]))
+            except FileFormatError as error:
+                subject = subject.changed(name, parameter.default)
+                warnings.append(f"{error}; the checkerboard stands in")
+    return subject, warnings
 
 
 def scene_subject(scene: Scene, data: Mapping[str, Any] | None = None, title: str = "") -> Subject:

@@ -12,6 +12,7 @@ import pytest
 from truth import errors, random_nets
 
 from reparam import assets
+from reparam.assets import read_shaders
 from reparam.errors import GraphicsError
 from reparam.gpu.painter import Painter
 from reparam.gpu.programs import Programs, degree_defines, locate, stage_source
@@ -84,7 +85,7 @@ def validate(folder: Path, stages: tuple[str, ...], defines: dict[str, int]) -> 
     version = 400 if "patch.tese" in stages else 330
     files = [folder / name for name in stages]
     for file in files:
-        text = stage_source(file.name, defines, version).text
+        text = stage_source(file.name, defines, version, read_shaders()).text
         file.write_text(text.replace("PRECISE precise", "PRECISE") if version < 400 else text)
     found = subprocess.run(["glslangValidator", "-l", *files], capture_output=True, text=True)
     return "" if found.returncode == 0 else found.stdout + found.stderr
@@ -120,14 +121,14 @@ def test_an_error_names_file_and_line(
     studio: Studio, tree: Path, file: str, line: int, text: str
 ) -> None:
     break_line(tree / file, line, text)
-    with pytest.raises(GraphicsError, match=rf"^{Path(file).name}:{line}: \S.*\Z"):
+    with pytest.raises(GraphicsError, match=rf"^{file}:{line}: \S.*\Z"):
         Programs(studio.ctx).get("evaluate.vert", defines=EVALUATE)
 
 
 def test_a_warning_before_the_error_is_not_taken_for_it(studio: Studio, tree: Path) -> None:
     break_line(tree / "lib/net.glsl", 1, "float unset() { float x; return x; }")
     break_line(tree / "lib/normal.glsl", 3, "float used = unset() + undeclared;")
-    with pytest.raises(GraphicsError, match=r"^normal\.glsl:3: "):
+    with pytest.raises(GraphicsError, match=r"^lib/normal\.glsl:3: "):
         Programs(studio.ctx).get("evaluate.vert", defines=EVALUATE)
 
 
@@ -141,16 +142,16 @@ def test_a_warning_before_the_error_is_not_taken_for_it(studio: Studio, tree: Pa
     ids=["Mesa", "NVIDIA", "Apple"],
 )
 def test_drivers_messages(message: str) -> None:
-    source = stage_source("evaluate.vert", {}, 330)
+    source = stage_source("evaluate.vert", {}, 330, read_shaders())
     said = message % place(source.text, "// sum_j basis[j]")
     log = f"GLSL Compiler failed\n\nvertex_shader\n=============\n{said}\n"
-    assert locate(log, {"vertex_shader": source}).startswith("evaluate.glsl:15: ")
+    assert locate(log, {"vertex_shader": source}).startswith("lib/evaluate.glsl:15: ")
 
 
 def test_a_missing_include_names_file_and_line(tree: Path) -> None:
     break_line(tree / "lib" / "evaluate.glsl", 14, '#include "missing.glsl"')
-    with pytest.raises(GraphicsError, match=r"^evaluate.glsl:14: expected a file to include"):
-        stage_source("evaluate.vert", {}, 330)
+    with pytest.raises(GraphicsError, match=r"^lib/evaluate.glsl:14: expected a file to include"):
+        stage_source("evaluate.vert", {}, 330, read_shaders())
 
 
 def test_reload_keeps_the_last_good_programs(studio: Studio, tree: Path) -> None:
@@ -160,17 +161,26 @@ def test_reload_keeps_the_last_good_programs(studio: Studio, tree: Path) -> None
     assert errors(nets, read_points(painter, "vertex", nets, 3)).point < 4e-7
     good = (tree / "lib" / "net.glsl").read_text()
     break_line(tree / "lib" / "net.glsl", 5, "vec4 control_point(sampler2D net, int index {")
-    with pytest.raises(GraphicsError, match=r"^net.glsl:5: "):
+    with pytest.raises(GraphicsError, match=r"^lib/net.glsl:5: "):
         painter.reload_shaders()
-    assert painter.programs.generation == 0
     assert painter.programs.get(*MARKED[0], defines=MARKED[1]) is before
     assert errors(nets, read_points(painter, "vertex", nets, 3)).point < 4e-7
     (tree / "lib" / "net.glsl").write_text(good.replace(", 0);", ", 0) * 2.0;"))
     painter.reload_shaders()
-    assert painter.programs.generation == 1
     assert painter.programs.get(*MARKED[0], defines=MARKED[1]) is not before
     points = read_points(painter, "vertex", nets, 3).points
     assert (points[:, 0] == 2.0 * nets[:, 0, 0].astype(np.float32)).all()
+
+
+def test_a_reload_refuses_a_uniform_that_nothing_sets(studio: Studio, tree: Path) -> None:
+    painter = Painter(studio.ctx)
+    before = painter.programs.get("label.vert", "label.frag")
+    break_line(tree / "label.frag", 2, "uniform float gain;")
+    lines = (tree / "label.frag").read_text()
+    (tree / "label.frag").write_text(lines.replace("color.a *", "gain * color.a *"))
+    with pytest.raises(GraphicsError, match=r"^label.frag:2: uniform gain: expected no new"):
+        painter.reload_shaders()
+    assert painter.programs.get("label.vert", "label.frag") is before
 
 
 def test_programs_are_compiled_once(studio: Studio) -> None:

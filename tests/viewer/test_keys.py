@@ -1,3 +1,5 @@
+"""One table of keys: the help in the terminal and the README's list are made from it."""
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -5,21 +7,35 @@ from pathlib import Path
 import pytest
 
 from reparam.cli import main
-from reparam.viewer.keys import KEYS, keys_markdown, keys_rows
+from reparam.viewer.keys import GESTURES, KEYS, keys_markdown, keys_rows
+
+ROOT = Path(__file__).parents[2]
 
 
-def test_the_readme_has_the_table() -> None:
-    readme = Path(__file__).parents[2] / "README.md"
-    assert keys_markdown() in readme.read_text(encoding="utf-8")
-
-
-def test_the_help_has_the_table(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit):
-        main(["view", "--help"])
-    text = capsys.readouterr().out
-    assert all(names in text and does in text for names, does in keys_rows())
-
-
-def test_no_key_does_two_things() -> None:
-    names = [name for key in KEYS for name in key.names]
+def test_no_name_twice() -> None:
+    names = [name.upper() for row in (*KEYS, *GESTURES) for name in row.names]
     assert len(names) == len(set(names))
+
+
+def test_arguments_are_for_each_name_or_for_none() -> None:
+    assert all(len(row.arguments) in (0, len(row.names)) for row in KEYS)
+
+
+def test_the_help_in_the_terminal(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as stopped:
+        main(["view", "--help"])
+    assert stopped.value.code == 0
+    lines = [line.split() for line in capsys.readouterr().out.splitlines()]
+    for names, does in keys_rows():
+        assert [*names.split(), *does.split()] in lines
+
+
+def test_the_readme() -> None:
+    assert keys_markdown() in (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def test_every_key_is_in_a_row() -> None:
+    assert len(keys_rows()) == len(KEYS) + len(GESTURES)
+    for row, (names, _) in zip(KEYS, keys_rows(), strict=False):
+        assert names.startswith(row.names[0])
+        assert names.endswith(row.names[-1])

@@ -75,7 +75,9 @@ class Window:
         return np.asarray(Image.open(path))
 
     def close(self) -> int:
-        self._xdotool("key", "--window", self._id, "Escape")
+        """Escape. The window is gone before the key is released, of which xdotool complains."""
+        command = ["xdotool", "key", "--window", self._id, "Escape"]
+        subprocess.run(command, env=self._environment, capture_output=True, check=False)
         return self.process.wait(SECONDS)
 
 

@@ -6,13 +6,17 @@ import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 from PIL import Image, ImageOps
 
+from ..assets import texture_path
 from ..errors import FileFormatError
 
+LARGEST_SIDE = 16384
 MOST_PIXELS = 1 << 27
+LONGEST_NAME = 100  # of a picture in textures/; the system raises on very long ones
 
 
 @dataclass(frozen=True)
@@ -31,18 +35,26 @@ def _quiet() -> Iterator[None]:
         yield
 
 
-def read_picture(path: Path, largest: int) -> Pixels:
+def find_picture(source: str) -> Path:
+    """The picture of that name in textures/; if there is none, a file."""
+    if source.isidentifier() and len(source) < LONGEST_NAME and texture_path(source).is_file():
+        return texture_path(source)
+    return Path(source)
+
+
+@lru_cache(maxsize=4)
+def read_picture(path: Path) -> Pixels:
     """Any picture that Pillow reads, turned upright by its EXIF tag, on white where transparent.
 
-    Raises FileFormatError if there is none at `path`, it is corrupt, or larger than `largest`
-    on a side or 2^27 pixels in all: the size is known before memory is taken.
+    Raises FileFormatError if there is none at `path`, it is corrupt, or larger than
+    LARGEST_SIDE or MOST_PIXELS in all: the size is known before memory is taken.
     """
     try:
         with _quiet(), Image.open(path) as image:
             width, height = image.size
-            if max(width, height) > largest or width * height > MOST_PIXELS:
+            if max(width, height) > LARGEST_SIDE or width * height > MOST_PIXELS:
                 raise FileFormatError(
-                    f"{path}: expected a picture of at most {largest} pixels a side and "
+                    f"{path}: expected a picture of at most {LARGEST_SIDE} pixels a side and "
                     f"{MOST_PIXELS} in all, found {width} x {height}"
                 )
             upright = ImageOps.exif_transpose(image)

@@ -58,6 +58,11 @@ def capabilities(ctx: moderngl.Context) -> Capabilities:
     )
 
 
+def create_for_window() -> moderngl.Context:
+    """The context that the windowing library has made current."""
+    return moderngl.create_context(require=MINIMUM)
+
+
 def create_headless() -> moderngl.Context:
     """A context without a window: EGL on Linux, the system's own way elsewhere.
 

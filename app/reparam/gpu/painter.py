@@ -136,10 +136,10 @@ class Painter:
         panels = arrange(figure, target.size, views or {}, plain, display.net)
         framebuffer = target.framebuffer
         framebuffer.use()
+        self._reset_state()
         ground = palette.PLAIN_GROUND if plain else palette.GROUND
         self.ctx.viewport = (0, 0, *target.size)
         framebuffer.clear(*ground, 1.0, depth=1.0)
-        self.ctx.enable(moderngl.BLEND)
         self.ctx.blend_func = (moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA)
         unit = min(target.size) / UNITS
         for panel in panels:
@@ -147,7 +147,13 @@ class Painter:
         if not plain:
             self._draw_caption(figure, target.size, unit)
         self._end_frame()
+        target.resolve()
         return panels
+
+    def _reset_state(self) -> None:
+        """What an earlier frame may have left, had it failed."""
+        self.ctx.enable_only(moderngl.BLEND)
+        self.ctx.scissor = None
 
     def _draw_space(
         self, panel: Panel, target: Target, display: Display, evaluator: str, unit: float

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import moderngl
 
-from ..assets import FILE_LINES, ShaderSource, expand_shader
+from ..assets import FILE_LINES, ShaderSource, expand_shader, read_shaders
 from ..errors import GraphicsError
 from ..geometry.net import MAX_ORDER
 from ..geometry.normal import SINGULAR_FACTOR, SINGULAR_SINE, SINGULAR_STEP
@@ -30,6 +30,9 @@ VERSIONS = {
 }
 
 Defines = Mapping[str, int | float]
+Key = tuple[tuple[str, ...], tuple[tuple[str, int | float], ...], tuple[str, ...]]
+
+_UNIFORM = re.compile(r"^\s*uniform\s+\w+\s+(\w+)", re.MULTILINE)
 
 
 def degree_defines(**degrees: tuple[int, int]) -> dict[str, int]:
@@ -43,8 +46,10 @@ def degree_defines(**degrees: tuple[int, int]) -> dict[str, int]:
     return defines
 
 
-def stage_source(name: str, defines: Defines, version: int) -> ShaderSource:
-    """shaders/NAME ready to compile."""
+def stage_source(
+    name: str, defines: Defines, version: int, texts: Mapping[str, str]
+) -> ShaderSource:
+    """shaders/NAME ready to compile, from the texts of `read_shaders`."""
     constants = {
         "NET_WIDTH": NET_WIDTH,
         "SINGULAR_SINE": SINGULAR_SINE,
@@ -53,7 +58,7 @@ def stage_source(name: str, defines: Defines, version: int) -> ShaderSource:
         **defines,
     }
     text = "".join(f"#define {key} {value}\n" for key, value in constants.items())
-    return expand_shader(name, VERSIONS[version] + text)
+    return expand_shader(name, texts, VERSIONS[version] + text)
 
 
 class Program:
@@ -68,6 +73,11 @@ class Program:
         members = {name: gl[name] for name in gl}
         self._active = {n: m for n, m in members.items() if isinstance(m, moderngl.Uniform)}
         self._unset = set(self._active)
+
+    @property
+    def uniforms(self) -> frozenset[str]:
+        """Those that the compiler kept."""
+        return frozenset(self._active)
 
     def set(self, **values: Any) -> Program:
         """Give uniforms their values. One that the compiler dropped is passed over."""
@@ -89,12 +99,15 @@ class Program:
 
 
 class Programs:
-    """All programs of a context, by stages and defines. `generation` counts successful reloads."""
+    """All programs of a context, by stages and defines.
+
+    The texts are read once, and again by `reload`: a file that is broken meanwhile harms nothing.
+    """
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self._ctx = ctx
-        self._cache: dict[tuple[Any, ...], Program] = {}
-        self.generation = 0
+        self._texts = read_shaders()
+        self._cache: dict[Key, Program] = {}
 
     def get(
         self, *stages: str, defines: Defines | None = None, varyings: tuple[str, ...] = ()
@@ -105,38 +118,63 @@ class Programs:
         """
         key = (stages, tuple(sorted((defines or {}).items())), varyings)
         if key not in self._cache:
-            self._cache[key] = self._compile(*key)
+            self._cache[key] = self._compile(key, self._texts)
         return self._cache[key]
 
     def reload(self) -> None:
         """Compile every program anew from the files. If one fails, all stay as they were.
 
-        Raises GraphicsError naming file:line.
+        A new uniform is a failure too: nothing would set it. Raises GraphicsError naming
+        file:line.
         """
-        fresh = {key: self._compile(*key) for key in self._cache}
+        texts, fresh = read_shaders(), {}
+        try:
+            for key, old in self._cache.items():
+                fresh[key] = self._compile(key, texts)
+                added = sorted(fresh[key].uniforms - old.uniforms - self._declared(key))
+                if added:
+                    raise GraphicsError(f"{_place_of(added[0], texts)}: expected no new uniform")
+        except GraphicsError:
+            for program in fresh.values():
+                program.gl.release()
+            raise
         for old in self._cache.values():
             old.gl.release()
-        self._cache = fresh
-        self.generation += 1
+        self._texts, self._cache = texts, fresh
 
-    def _compile(
-        self,
-        stages: tuple[str, ...],
-        defines: tuple[tuple[str, int | float], ...],
-        varyings: tuple[str, ...],
-    ) -> Program:
+    def _declared(self, key: Key) -> frozenset[str]:
+        return declared(stage.text for stage in self._sources(key, self._texts).values())
+
+    def _sources(self, key: Key, texts: Mapping[str, str]) -> dict[str, ShaderSource]:
+        stages, defines, _ = key
         version = 400 if any(name.endswith(".tese") for name in stages) else 330
-        sources = {
-            STAGES["." + name.rsplit(".", 1)[1]]: stage_source(name, dict(defines), version)
+        return {
+            STAGES["." + name.rsplit(".", 1)[1]]: stage_source(name, dict(defines), version, texts)
             for name in stages
         }
-        texts = {stage: source.text for stage, source in sources.items()}
+
+    def _compile(self, key: Key, texts: Mapping[str, str]) -> Program:
+        _, defines, varyings = key
+        sources = self._sources(key, texts)
+        stages: dict[str, Any] = {stage: source.text for stage, source in sources.items()}
         try:
-            gl = self._ctx.program(**texts, varyings=varyings)  # type: ignore[arg-type]
+            gl = self._ctx.program(**stages, varyings=varyings)
         except moderngl.Error as error:
             raise GraphicsError(locate(str(error), sources)) from error
-        declared = re.findall(r"uniform\s+\w+\s+(\w+)", "".join(texts.values()))
-        return Program(gl, frozenset(declared), frozenset(dict(defines)))
+        return Program(gl, declared(stages.values()), frozenset(dict(defines)))
+
+
+def declared(texts: Iterable[str]) -> frozenset[str]:
+    """The uniforms that shaders declare, used or not."""
+    return frozenset(name for text in texts for name in _UNIFORM.findall(text))
+
+
+def _place_of(uniform: str, texts: Mapping[str, str]) -> str:
+    for name, text in texts.items():
+        for number, line in enumerate(text.splitlines(), start=1):
+            if uniform in _UNIFORM.findall(line):
+                return f"{name}:{number}: uniform {uniform}"
+    return f"uniform {uniform}"
 
 
 # Mesa: `0:12(5): error: ...`   NVIDIA: `0(12) : error C0000: ...`   others: `ERROR: 0:12: ...`
@@ -151,5 +189,5 @@ def locate(log: str, sources: Mapping[str, ShaderSource]) -> str:
         return "shader: " + " ".join(log.split())
     files = sources[stage].files
     number, line = divmod(int(place[2] or place[3]), FILE_LINES)
-    name = files[number].name if number < len(files) else stage
+    name = files[number] if number < len(files) else stage
     return f"{name}:{line}: {place[4].strip()}"

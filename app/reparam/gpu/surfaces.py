@@ -67,8 +67,10 @@ class Surfaces:
         """The edges of the triangles that `draw` draws."""
         path = {"vertex": self._draw_meshes, "tessellation": self._draw_tessellated}[evaluator]
         self._ctx.wireframe = True
-        path(layer, camera, level, color, True)
-        self._ctx.wireframe = False
+        try:
+            path(layer, camera, level, color, True)
+        finally:
+            self._ctx.wireframe = False
 
     def sweep(self) -> None:
         """End of a frame."""
@@ -82,7 +84,8 @@ class Surfaces:
         defines = {}
         if layer.texture is not None and not bare:
             defines["TEXTURED"] = 1
-            defines |= self.pictures.defines(layer.texture.picture)
+            if layer.texture.picture.wrap == "mirror":
+                defines["MIRRORED"] = 1
         if layer.lit and not bare:
             defines["LIT"] = 1
         return defines
@@ -98,7 +101,8 @@ class Surfaces:
         if "TEXTURED" in program.defines:
             assert layer.texture is not None
             picture = layer.texture.picture
-            scale, offset = self.pictures.use(picture, unit=2)
+            self.pictures.use(picture, unit=2)
+            scale, offset = picture.scale, picture.offset
             reach = 0.75 if picture.filter == "smooth" else 0.0
             program.set(image=2, image_from_map=(scale, scale, offset, offset), reach=reach)
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 from .layers import Picture
-from .parameters import Range
+from .parameters import PictureFile, Range
 
 Checks = Annotated[int, Range(1, 256), "checker squares along each side of [-1,1]² in (s,t)"]
-Image = Annotated[str, "a picture file instead of the checkerboard, once over [-1,1]²"]
+Image = Annotated[str, PictureFile(), "a picture instead of the checkerboard, once over [-1,1]²"]
 Wrap = Annotated[Literal["mirror", "repeat"], "how that picture goes on beyond [-1,1]²"]
 Filter = Annotated[Literal["smooth", "nearest"], "how the picture is looked up"]
 

@@ -19,4 +19,4 @@ ALONG_U = rgb("0072B2")  # blue: where u runs
 ALONG_V = rgb("D55E00")  # vermillion: where v runs
 CONTROL_NET = rgb("222222")
 SURFACE = rgb("56B4E9")  # sky blue: a surface without a picture
-PLAIN_GROUND = rgb("FF00FF")  # behind a plain picture: far from both checker colours and mixtures
+PLAIN_GROUND = rgb("0000FF")  # far from the checkers and their mixtures, in colour and in grey

@@ -27,6 +27,11 @@ class Range:
 
 
 @dataclass(frozen=True)
+class PictureFile:
+    """Marks a text that names a picture; without one the scene shows what it shows for ""."""
+
+
+@dataclass(frozen=True)
 class Parameter:
     """One parameter: its name, type, default, choices or range, and what it does."""
 
@@ -36,6 +41,7 @@ class Parameter:
     choices: tuple[str, ...] = ()
     range: Range | None = None
     help: str = ""
+    picture: bool = False  # the name of a picture file
 
     def expected(self) -> str:
         """The values it takes, in words."""
@@ -112,7 +118,8 @@ def _parameter(name: str, hint: Any, default: Value) -> Parameter | None:
         return None
     interval = next((extra for extra in extras if isinstance(extra, Range)), None)
     text = next((extra for extra in extras if isinstance(extra, str)), "")
-    return Parameter(name, kind, default, choices, interval, text)
+    picture = any(isinstance(extra, PictureFile) for extra in extras)
+    return Parameter(name, kind, default, choices, interval, text, picture)
 
 
 def find(parameters: Mapping[str, Parameter], name: str) -> Parameter:

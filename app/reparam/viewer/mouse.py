@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import glfw
@@ -15,28 +14,44 @@ DEGREES_A_WINDOW = 200.0  # of orbit, dragging across the window's shorter side
 
 
 class Mouse:
-    """Listens to a window; `panels` gives the panels as they were drawn last."""
+    """Listens to a window, and is told what was drawn there."""
 
-    def __init__(self, window: Any, state: State, panels: Callable[[], list[Panel]]) -> None:
+    def __init__(self, window: Any, state: State) -> None:
         self._window = window
         self._state = state
-        self._panels = panels
-        self._at = (0.0, 0.0)
+        self._panels: list[Panel] = []
+        self._units: dict[str, float] = {}  # model units a pixel, by the space, at zoom 1
+        self._at: tuple[float, float] = glfw.get_cursor_pos(window)  # as the events tell it
         self._held: tuple[str, bool] | None = None  # a space's name, and whether it is only moved
         glfw.set_cursor_pos_callback(window, self._on_move)
         glfw.set_mouse_button_callback(window, self._on_button)
         glfw.set_scroll_callback(window, self._on_scroll)
 
-    def _pixel(self, x: float, y: float) -> tuple[float, float]:
-        """Framebuffer pixels, y up, from window coordinates."""
+    def see(self, panels: list[Panel]) -> None:
+        """These were drawn with the views as they are."""
+        self._panels = panels
+        self._units = {
+            panel.space.name: 2.0
+            * panel.camera.half_height
+            / panel.region.height
+            * self._state.view(panel.space.name).zoom
+            for panel in panels
+        }
+
+    def _unit(self, space: str) -> float:
+        """Model units a pixel, by the view as it is now, be it drawn already or not."""
+        return self._units[space] / self._state.view(space).zoom
+
+    def _pixel(self) -> tuple[float, float]:
+        """Where the mouse is, in framebuffer pixels, y up; the window's size may have changed."""
+        x, y = self._at
         width, height = glfw.get_window_size(self._window)
         across, up = glfw.get_framebuffer_size(self._window)
         return x * across / max(1, width), up - y * up / max(1, height)
 
     def _panel_here(self) -> Panel | None:
-        """The panel under the mouse, asked anew: the window may have changed under it."""
-        self._at = x, y = self._pixel(*glfw.get_cursor_pos(self._window))
-        for panel in self._panels():
+        x, y = self._pixel()
+        for panel in self._panels:
             region = panel.region
             inside = 0 <= x - region.left < region.width and 0 <= y - region.bottom < region.height
             if inside:
@@ -49,28 +64,26 @@ class Mouse:
         self._held = (panel.space.name, moves) if panel else None
 
     def _on_move(self, _: Any, x: float, y: float) -> None:
-        before, self._at = self._at, self._pixel(x, y)
+        before = self._pixel()
+        self._at = (x, y)
+        after = self._pixel()
         name, moves = self._held or ("", False)
-        panel = next((panel for panel in self._panels() if panel.space.name == name), None)
+        panel = next((panel for panel in self._panels if panel.space.name == name), None)
         if self._held is None or panel is None:
             return
-        dx, dy = self._at[0] - before[0], self._at[1] - before[1]
+        dx, dy = after[0] - before[0], after[1] - before[1]
         if panel.space.spatial and not moves:
             turn = DEGREES_A_WINDOW / min(panel.region.width, panel.region.height)
             self._state.orbit(name, -dx * turn, -dy * turn)
         else:
-            unit = model_units(panel)
+            unit = self._unit(name)
             self._state.pan(name, dx * unit, dy * unit)
 
     def _on_scroll(self, _: Any, __: float, notches: float) -> None:
         panel = self._panel_here()
         if panel is not None:
-            region, unit = panel.region, model_units(panel)
-            x = (self._at[0] - region.left - region.width / 2) * unit
-            y = (self._at[1] - region.bottom - region.height / 2) * unit
-            self._state.zoom(panel.space.name, WHEEL**notches, x, y)
-
-
-def model_units(panel: Panel) -> float:
-    """Model units a pixel."""
-    return 2.0 * panel.camera.half_height / panel.region.height
+            region, unit = panel.region, self._unit(panel.space.name)
+            x, y = self._pixel()
+            right = (x - region.left - region.width / 2) * unit
+            up = (y - region.bottom - region.height / 2) * unit
+            self._state.zoom(panel.space.name, WHEEL**notches, right, up)

@@ -168,15 +168,19 @@ class State:
 
     # Mouse ----------------------------------------------------------------------------------
 
+    def view(self, space: str) -> View:
+        """How a space is seen."""
+        return self.views.get(space, View())
+
     def pan(self, space: str, dx: float, dy: float) -> None:
         """Move a space's picture by (dx, dy) model units."""
-        view = self.views.get(space, View())
+        view = self.view(space)
         self.views[space] = replace(view, pan=(view.pan[0] - dx, view.pan[1] - dy))
         self.changed = True
 
     def zoom(self, space: str, factor: float, x: float, y: float) -> None:
         """Enlarge by `factor`, keeping the point (x, y) model units from the middle in place."""
-        view = self.views.get(space, View())
+        view = self.view(space)
         zoom = min(1e4, max(1e-2, view.zoom * factor))
         shift = 1.0 - view.zoom / zoom
         pan = (view.pan[0] + x * shift, view.pan[1] + y * shift)
@@ -185,7 +189,7 @@ class State:
 
     def orbit(self, space: str, azimuth: float, elevation: float) -> None:
         """Turn a spatial space by these degrees."""
-        view = self.views.get(space, View())
+        view = self.view(space)
         steep = min(90.0, max(-90.0, view.elevation + elevation))
         turned = (view.azimuth + azimuth) % 360.0
         self.views[space] = replace(view, azimuth=turned, elevation=steep)

@@ -11,9 +11,9 @@ import moderngl
 
 from ..errors import GraphicsError, ReparamError
 from ..files.output import check_output, save_picture
-from ..gpu.context import MINIMUM
+from ..gpu.context import create_for_window
 from ..gpu.diagnosis import explain
-from ..gpu.painter import Painter, Panel
+from ..gpu.painter import Painter
 from ..gpu.targets import Target
 from ..subject import Subject
 from .keys import KEYS
@@ -23,7 +23,6 @@ from .screen import screen_missing
 from .state import State
 
 FRAME_SECONDS = 1 / 60
-HINT = "T: the other texture map   M: morph   H: all keys"
 
 # What a scene, or a shader just edited, may raise: shown, and the window stays.
 UNDRAWABLE = (ReparamError, ValueError, OSError, AssertionError, moderngl.Error)
@@ -75,22 +74,21 @@ class Viewer:
 
     def __init__(self, window: Any, subject: Subject, evaluator: str | None) -> None:
         self._window = window
-        self._ctx = moderngl.create_context(require=MINIMUM)
+        self._ctx = create_for_window()
         self._painter = Painter(self._ctx)
         capabilities = self._painter.capabilities
         evaluators = ("vertex", "tessellation") if capabilities.tessellation else ("vertex",)
         self.state = State(subject, evaluators, capabilities.evaluator(evaluator))
         self._target: Target | None = None
         self._samples = 0  # asked for when the target was made
-        self._panels: list[Panel] = []
-        self._mouse = Mouse(window, self.state, lambda: self._panels)
+        self._mouse = Mouse(window, self.state)
         self._windowed: tuple[int, int, int, int] | None = None
         self._began = time.perf_counter()
         self._actions = self._bind_keys()
         glfw.set_key_callback(window, self._on_key)
         glfw.set_framebuffer_size_callback(window, self._on_damage)
         glfw.set_window_refresh_callback(window, self._on_damage)
-        self.state.say(HINT, 6.0)
+        self.state.say(hint(subject), 6.0)
 
     def run(self) -> None:
         """Until the window is closed: wait, and draw only what changed."""
@@ -125,7 +123,6 @@ class Viewer:
             if self._target is None or self._target.size != size:
                 return 0.0
             target = self._target
-        self._warn()
         self._present(target)
         return time.perf_counter() - began
 
@@ -133,13 +130,14 @@ class Viewer:
         subject = self.state.subject
         self._renew_target(size, subject.display.samples)
         assert self._target is not None
-        self._panels = self._painter.draw(
+        panels = self._painter.draw(
             subject.figure(),
             self._target,
             subject.display,
             evaluator=self.state.evaluator,
             views=self.state.views,
         )
+        self._mouse.see(panels)
         return self._target
 
     def _renew_target(self, size: tuple[int, int], samples: int) -> None:
@@ -154,21 +152,12 @@ class Viewer:
 
     def _present(self, target: Target) -> None:
         """The frame onto the screen, and over it what only the window has."""
-        screen = self._ctx.detect_framebuffer(0)
-        screen.viewport = (0, 0, *target.size)
-        self._ctx.copy_framebuffer(screen, target.resolve())
-        screen.use()
+        target.show()
         if self.state.help:
             draw_help(self._painter.labels, target.size)
         if self.state.notice:
             draw_notice(self._painter.labels, self.state.notice, target.size)
         glfw.swap_buffers(self._window)
-
-    def _warn(self) -> None:
-        warnings = self._painter.surfaces.pictures.warnings
-        if warnings:
-            self.state.say(warnings[-1], 8.0)
-            warnings.clear()
 
     # Keys -----------------------------------------------------------------------------------
 
@@ -193,6 +182,8 @@ class Viewer:
 
     def screenshot(self) -> None:
         """The frame, without help or notice, into the next free file of the current folder."""
+        if self.state.changed:
+            self._draw()  # what a key or the mouse did just now belongs to it
         if self._target is None:
             return
         name = Path(self.state.subject.title).stem if self.state.subject.data else ""
@@ -239,6 +230,12 @@ class Viewer:
 
     def _on_damage(self, *_: Any) -> None:
         self.state.changed = True
+
+
+def hint(subject: Subject) -> str:
+    """What to press first: only what this subject has."""
+    hints = [("texture", "T: the other texture map"), ("morph", "M: morph")]
+    return "   ".join([*(text for name, text in hints if name in subject.values), "H: all keys"])
 
 
 def key_name(key: int, scancode: int) -> str:

@@ -43,7 +43,8 @@ def fig4(
         Space("domain", plane(-0.14, -0.04, 1.04, 1.24), domain),
         Space("physical", plane(-1.7, -1.52, 1.52, 1.98), image),
     )
-    return Figure(spaces, (f"(1 − w) (V, −U) + w r(u, v),   w = {morph:.2f}",))
+    caption = f"(1 − w) (V, −U) + w r(u, v),   w = {morph:.4g},   U = 2u − 1,  V = 2v − 1"
+    return Figure(spaces, (caption,))
 
 
 def mapped(net: Array, color: Color, lines: int) -> tuple[Layer, ...]:

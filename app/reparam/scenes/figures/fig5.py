@@ -61,7 +61,7 @@ def fig5(
         seen = (IMAGE_ON_R if image else CHECKS_ON_R)[texture]
         caption = (f"{ATTACHED[texture]}: {seen}", FORMULA)
     else:
-        shape = f"drawn on (1 − w) (V, −U) + w r(u, v),   w = {morph:.2f}"
+        shape = f"drawn on (1 − w) (V, −U) + w r(u, v),   w = {morph:.4g}"
         caption = (ATTACHED[texture], shape)
     return Figure((space,), caption)
 
