@@ -23,6 +23,7 @@ from reparam.scenes.registry import load_scene, scene_names
 from reparam.snapshot import Studio
 
 LONG = "x" * 300
+CORNER_AWAY = "[[[-1,1],[0,2],[1,1]],[[-2,0],[0,0],[2,0]],[[-1,-1],[0,-2],[1,-Infinity]]]"
 SQUARE = "4 1\n0 0 0\n0 1 0\n1 0 0\n1 1 0\n"
 
 
@@ -74,10 +75,11 @@ def test_list_json(capsys: pytest.CaptureFixture[str]) -> None:
     for row in rows:
         assert row.keys() == {"scene", "title", "figure", "parameters"}
         for parameter in row["parameters"]:
-            keys = {"name", "type", "choices", "range", "default", "help"}
+            keys = {"name", "type", "choices", "range", "shape", "default", "help"}
             assert parameter.keys() == keys
             assert parameter["help"]
-            assert parameter["type"] in ("choice", "bool", "int", "float", "str")
+            assert parameter["type"] in ("choice", "bool", "int", "float", "str", "points")
+            assert (parameter["type"] == "points") == (parameter["shape"] is not None)
             assert (parameter["type"] == "choice") == (parameter["choices"] is not None)
             if parameter["choices"]:
                 assert parameter["default"] in parameter["choices"]
@@ -149,6 +151,9 @@ BAD_WORDS = {
     "surface needs a file": (["surface"], 2, "expected a scene", ""),
     "unknown parameter": (["fig5", "--set", "textur=r"], 2, "'textur'", "did you mean texture?"),
     "no value": (["fig5", "--set", "checks"], 2, "expected NAME=VALUE", "'checks'"),
+    "no JSON": (["fig5", "--set", "points=[[1,2"], 2, "3 x 3 x 2 numbers", "found '[[1,2'"),
+    "wrong shape": (["fig5", "--set", "points=[[[0,1]]]"], 2, "points: ", "found 1 x 1 x 2"),
+    "not a number": (["fig4", "--set", f"points={CORNER_AWAY}"], 2, "points: ", "inf at [2][2][1]"),
     "bad choice": (["fig5", "--set", "texture=q"], 2, "expected identity or r, found 'q'", ""),
     "bad number": (["fig5", "--set", "checks=1.5"], 2, "a whole number from 1 to 256", "'1.5'"),
     "out of range": (["fig5", "--set", "level=0"], 2, "level: expected", "found '0'"),

@@ -231,4 +231,5 @@ def run_doctor(options: argparse.Namespace) -> int:
 
 def _print_parameters(parameters) -> None:  # type: ignore[no-untyped-def]
     for p in parameters:
-        print(f"  {p.name:10} {p.expected()}; default {p.default!r}   {p.help}")
+        default = p.text(p.default) if p.points else repr(p.default)
+        print(f"  {p.name:10} {p.expected()}; default {default}   {p.help}")

@@ -39,6 +39,14 @@ class Subject:
         """The present value of a parameter."""
         return self.values[name] if name in self.values else getattr(self.display, name)
 
+    def shown(self, name: str) -> str:
+        """The present value of a parameter, as a line on the screen has room for it."""
+        value = self.value(name)
+        if isinstance(value, bool):
+            return "on" if value else "off"
+        text = self.parameters()[name].text(value)
+        return text if len(text) <= 60 else f"{text[:57]}..."
+
     def changed(self, name: str, value: Any) -> Subject:
         """The same with one parameter changed. Raises ValueError if the value is not allowed."""
         value = find(self.parameters(), name).check(value)

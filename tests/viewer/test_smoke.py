@@ -1,84 +1,23 @@
-"""A real window under Xvfb: keys change the picture as they should, Escape closes it."""
+"""A real window under Xvfb: keys and drags change the picture as they should, Escape closes it."""
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
-from PIL import Image
+from driver import SIZE, Window, virtual_screen
 
+from reparam.gpu.painter import arrange
 from reparam.snapshot import Studio
 from reparam.subject import open_subject
-
-SIZE = (320, 240)
-SECONDS = 30.0
 
 
 @pytest.fixture(scope="module")
 def display() -> Iterator[str]:
-    """A virtual screen of its own."""
-    read, write = os.pipe()
-    command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "800x600x24", "-nolisten", "tcp"]
-    server = subprocess.Popen(command, pass_fds=[write], stderr=subprocess.DEVNULL)
-    os.close(write)
-    with os.fdopen(read) as pipe:
-        number = pipe.readline().strip()
-    yield f":{number}"
-    server.terminate()
-    server.wait()
-
-
-class Window:
-    """`reparam view` in a folder of its own, driven by xdotool."""
-
-    def __init__(self, display: str, folder: Path) -> None:
-        self.folder = folder
-        self._environment = {**os.environ, "DISPLAY": display, "PYTHONUNBUFFERED": "1"}
-        command = [sys.executable, "-m", "reparam", "view", "--size", "320x240"]
-        app = Path(__file__).parents[2] / "app"
-        self._environment["PYTHONPATH"] = str(app)
-        self.log = folder / "log"
-        with self.log.open("w") as log:
-            self.process = subprocess.Popen(
-                command, cwd=folder, env=self._environment, stdout=log, stderr=log
-            )
-        self.wait_for("H: all keys")
-        self._id = self._xdotool("search", "--sync", "--name", "reparam").split()[-1]
-
-    def _xdotool(self, *words: str) -> str:
-        result = subprocess.run(
-            ["xdotool", *words], env=self._environment, capture_output=True, text=True, check=True
-        )
-        return result.stdout
-
-    def wait_for(self, text: str, times: int = 1) -> None:
-        until = time.monotonic() + SECONDS
-        while self.log.read_text().count(text) < times:
-            assert time.monotonic() < until, f"no {text!r} in {self.log.read_text()!r}"
-            assert self.process.poll() is None, self.log.read_text()
-            time.sleep(0.02)
-
-    def press(self, key: str, notice: str) -> None:
-        times = self.log.read_text().count(notice) + 1
-        self._xdotool("key", "--window", self._id, key)
-        self.wait_for(notice, times)
-
-    def screenshot(self) -> np.ndarray:
-        self.press("s", "saved ")
-        path = self.log.read_text().rsplit("saved ", 1)[1].splitlines()[0]
-        return np.asarray(Image.open(path))
-
-    def close(self) -> int:
-        """Escape. The window is gone before the key is released, of which xdotool complains."""
-        command = ["xdotool", "key", "--window", self._id, "Escape"]
-        subprocess.run(command, env=self._environment, capture_output=True, check=False)
-        return self.process.wait(SECONDS)
+    with virtual_screen() as name:
+        yield name
 
 
 def test_keys_change_the_picture_as_the_command_line_does(
@@ -101,6 +40,36 @@ def test_keys_change_the_picture_as_the_command_line_does(
             assert np.array_equal(window.screenshot(), studio.draw(subject, SIZE)), name
         window.press("F5", "shaders reloaded")
         window.press("4", "fig4: ")
+        assert window.close() == 0
+    finally:
+        window.process.kill()
+
+
+def test_a_dragged_point_moves_alone_and_undo_brings_the_picture_back(
+    display: str, tmp_path: Path, studio: Studio
+) -> None:
+    window = Window(display, tmp_path)
+    subject = open_subject("fig5").changed("texture", "r")
+    try:
+        window.press("t", "texture = r")
+        before = window.screenshot()
+        assert np.array_equal(before, studio.draw(subject, SIZE))
+        panel = arrange(subject.figure(), SIZE, {}, False, False)[0]
+        region = panel.region
+        x, y = panel.camera.pixels(np.zeros(3), region.width, region.height)
+        window.drag((x, SIZE[1] - y - region.bottom), (24.0, -16.0), "c11 = (")
+        place = window.log.read_text().rsplit("c11 = (", 1)[1].split(")")[0].split(", ")
+        points = np.array(subject.value("points"))
+        points[1, 1] = [float(c) for c in place]
+        pixel = panel.camera.pixels(np.array([*points[1, 1], 0.0]), region.width, region.height)
+        assert np.abs(pixel - (x, y) - (24.0, 16.0)).max() <= 1.0
+        moved = studio.draw(subject.changed("points", points), SIZE)
+        assert np.array_equal(window.screenshot(), moved)
+        assert not np.array_equal(moved, before)
+        window.press("ctrl+z", "undone: points")
+        assert np.array_equal(window.screenshot(), before)
+        window.press("ctrl+shift+z", "redone: points")
+        assert np.array_equal(window.screenshot(), moved)
         assert window.close() == 0
     finally:
         window.process.kill()

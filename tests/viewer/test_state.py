@@ -92,9 +92,9 @@ def test_evaluator() -> None:
 def test_help() -> None:
     state = opened()
     for shown in (True, False):
-        state.changed = False
+        state.changed = state.refresh = False
         state.toggle_help()
-        assert (state.help, state.changed) == (shown, True)
+        assert (state.help, state.changed, state.refresh) == (shown, False, True)
 
 
 def run(state: State, start: float, seconds: float) -> list[float]:
@@ -249,7 +249,7 @@ def test_random_keys_leave_no_value_out_of_range() -> None:
         getattr(state, row.action)(*(() if argument is None else (argument,)))
         state.advance(step * 0.1)
         for name, parameter in state.subject.parameters().items():
-            assert parameter.check(value(state, name)) == value(state, name)
+            assert np.array_equal(parameter.check(value(state, name)), value(state, name))
         assert state.evaluator in BOTH
         assert state.subject.figure().spaces
 
@@ -299,9 +299,10 @@ def test_a_notice_disappears_in_time(capsys: pytest.CaptureFixture[str]) -> None
     assert capsys.readouterr().out == "here\n"
     state.advance(11.0)
     assert (state.notice, state.seconds_of_notice()) == ("here", pytest.approx(1.0))
-    state.changed = False
+    state.changed = state.refresh = False
     state.advance(12.0)
-    assert (state.notice, state.changed, state.seconds_of_notice()) == ("", True, 0.0)
+    assert (state.notice, state.refresh, state.seconds_of_notice()) == ("", True, 0.0)
+    assert not state.changed
 
 
 def test_time_alone_changes_nothing() -> None:

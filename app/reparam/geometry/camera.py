@@ -55,6 +55,12 @@ class Camera:
         clip = points @ matrix[:2, :3].T + matrix[:2, 3]
         return np.asarray((clip + 1.0) / 2.0 * np.array([width, height]))
 
+    def moved(self, point: Array, pixel: Array, width: float, height: float) -> Array:
+        """The model point (3,) seen at `pixel`, in the plane through `point` across the view."""
+        across = 2.0 * np.array([self.half_width / width, self.half_height / height])
+        right, up = (pixel - self.pixels(point, width, height)) * across
+        return np.asarray(point + right * self.rotation[0] + up * self.rotation[1])
+
 
 def orbit_rotation(azimuth: float, elevation: float) -> Array:
     """Rows: right, up, towards the eye, for an eye at these angles (degrees), z up."""
@@ -80,3 +86,18 @@ def frame(points: Array, width: int, height: int, view: View, spatial: bool) -> 
     scale /= view.zoom
     center = center + rotation[0] * view.pan[0] + rotation[1] * view.pan[1]
     return Camera(rotation, center, scale * width, scale * height, half_depth)
+
+
+def view_through(
+    camera: Camera, points: Array, width: int, height: int, view: View, spatial: bool
+) -> View:
+    """The view by which `frame` shows other `points` as `camera` does: nothing moves on the screen.
+
+    `view` is the one that made the camera; it comes back itself if it still does.
+    """
+    framed = frame(points, width, height, view, spatial)
+    if framed.half_height == camera.half_height and np.array_equal(framed.center, camera.center):
+        return view
+    start = frame(points, width, height, replace(view, zoom=1.0, pan=(0.0, 0.0)), spatial)
+    x, y, _ = camera.rotation @ (camera.center - start.center)
+    return replace(view, zoom=start.half_height / camera.half_height, pan=(float(x), float(y)))

@@ -16,7 +16,7 @@ from ..geometry.camera import Camera, View, frame
 from ..geometry.evaluate import project
 from ..scenes import palette
 from ..scenes.display import Display
-from ..scenes.layers import ControlNet, Figure, IsoLines, Label, Layer, Patches, Space
+from ..scenes.layers import ControlNet, Figure, Handles, IsoLines, Label, Layer, Patches, Space
 from .context import Capabilities, capabilities
 from .evaluation import Evaluation
 from .programs import Programs
@@ -43,6 +43,10 @@ class Region:
     bottom: int
     width: int
     height: int
+
+    def contains(self, x: float, y: float) -> bool:
+        """Whether the pixel is in it."""
+        return 0 <= x - self.left < self.width and 0 <= y - self.bottom < self.height
 
 
 @dataclass(frozen=True)
@@ -167,6 +171,10 @@ class Painter:
         for layer in panel.space.layers:
             self._draw_layer(layer, panel, display, evaluator, unit)
         self.ctx.disable(moderngl.DEPTH_TEST)
+        for layer in panel.space.layers:
+            if isinstance(layer, Handles) and display.handles:
+                viewport = (region.width, region.height)
+                self.strokes.draw_handles(layer, panel.camera, viewport, unit)
         self.ctx.scissor = None
         self.ctx.viewport = (0, 0, *target.size)
         for layer in panel.space.layers:

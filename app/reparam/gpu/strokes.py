@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.camera import Camera
-from ..scenes.layers import Color, ControlNet, IsoLines
+from ..scenes.layers import Color, ControlNet, Handles, IsoLines
 from .evaluation import Evaluation, patch_count
 from .kept import Kept
 from .programs import Program, Programs
@@ -19,6 +19,7 @@ Array = NDArray[np.float64]
 
 CURVE_SEGMENTS = 64
 DEPTH_BIAS = 2e-3  # lines that lie on a surface come before it
+HANDLE_RINGS = ((1.5, (0.13, 0.13, 0.13)), (0.8, (1.0, 1.0, 1.0)))  # seen on any ground
 ARROW_SIZE = 4.5  # figure units from the middle of the head to its tip
 
 
@@ -36,7 +37,7 @@ class Polylines:
 
 
 class Strokes:
-    """Draws IsoLines and ControlNet layers into the current framebuffer."""
+    """Draws IsoLines, ControlNet and Handles layers into the current framebuffer."""
 
     def __init__(self, ctx: moderngl.Context, programs: Programs, evaluation: Evaluation) -> None:
         self._ctx = ctx
@@ -77,6 +78,21 @@ class Strokes:
         points = layer.net.reshape(-1, 4)
         dots = points[points[:, 3] > 0.0].astype(np.float32)
         self._mark(dots, dots, camera, viewport, layer.color, layer.dot * unit)
+
+    def draw_handles(
+        self,
+        layer: Handles,
+        camera: Camera,
+        viewport: tuple[int, int],
+        unit: float,
+        only: int | None = None,
+    ) -> None:
+        """A ringed disc for each point, or for point `only` alone."""
+        at = layer.at if only is None else layer.at[only : only + 1]
+        points = np.concatenate([at, np.ones((len(at), 1))], -1).astype(np.float32)
+        for ring, color in (*HANDLE_RINGS, (0.0, layer.color)):
+            size = (layer.radius + ring) * unit
+            self._mark(points, points, camera, viewport, color, size)
 
     def _evaluate(self, layer: IsoLines) -> Polylines:
         parameters, pens = line_parameters(layer.u, layer.v, layer.span)

@@ -15,4 +15,5 @@ class Display:
     level: Annotated[int, Range(1, 1024), "tessellation level: steps in u and in v"] = 32
     wireframe: Annotated[bool, "the triangles' edges over the surface"] = False
     net: Annotated[bool, "the control net"] = False
+    handles: Annotated[bool, "the points that a hand can drag in the window"] = False
     samples: Annotated[int, Range(0, 16), "samples a pixel; 0: the most up to 8"] = 0

@@ -6,8 +6,9 @@ same object comes back.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -106,7 +107,33 @@ class Label:
     italic: bool = False
 
 
-Layer = Patches | IsoLines | ControlNet | Label
+Drag = Callable[[Mapping[str, Any], int, Array], Mapping[str, Any]]
+
+
+@dataclass(frozen=True)
+class Handles:
+    """What a hand can drag: points (k, 3). The window shows them, a picture only if asked to.
+
+    `drag(values, index, point)` gets the scene's parameter values and where point `index` shall
+    go, (3,), and returns the parameters that change. In a space of the plane z stays as it is, in
+    a spatial one the point moves in the view plane.
+    """
+
+    at: Array
+    drag: Drag
+    names: tuple[str, ...] = ()  # of each point, for the line that tells its coordinates
+    color: Color = (0.8, 0.475, 0.655)  # reddish purple
+    radius: float = 4.0  # figure units
+
+    def __post_init__(self) -> None:
+        _freeze(self)
+
+    def name(self, index: int) -> str:
+        """What a point is called."""
+        return self.names[index] if self.names else f"point {index + 1}"
+
+
+Layer = Patches | IsoLines | ControlNet | Label | Handles
 
 
 @dataclass(frozen=True)
@@ -135,6 +162,11 @@ class Figure:
         patches = tuple(layer for layer in subject.layers if isinstance(layer, Patches))
         points = np.concatenate([sample_surface(layer.net) for layer in patches])
         return Figure((replace(subject, layers=patches, bounds=points),))
+
+
+def including(bounds: Array, net: Array) -> Array:
+    """Bounds (k, 3) of a viewport that shows what `bounds` (2, 3) does and all of a patch."""
+    return np.concatenate([bounds, sample_surface(net)])
 
 
 def plane(x0: float, y0: float, x1: float, y1: float) -> Array:

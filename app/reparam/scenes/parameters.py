@@ -6,13 +6,17 @@ def fig5(texture: Literal["identity", "r"] = "identity",
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from inspect import signature
 from typing import Any, Literal, get_args, get_origin, get_type_hints
 
+import numpy as np
+
 from ..errors import UsageError
+from ..geometry.net import LARGEST, Array
 
 Value = Any
 
@@ -32,6 +36,47 @@ class PictureFile:
 
 
 @dataclass(frozen=True)
+class Points:
+    """Marks an array of numbers of that shape; None is a length that the user chooses.
+
+    Its text form is JSON: nested lists. Its values are read-only, so that the GPU may keep what
+    it made of them.
+    """
+
+    shape: tuple[int | None, ...]
+    help: str = ""
+
+    def expected(self) -> str:
+        """The arrays it takes, in words."""
+        sides = " x ".join("n" if side is None else str(side) for side in self.shape)
+        return f"{sides} numbers as nested JSON lists"
+
+    def check(self, value: Any) -> Array:
+        """The value as a read-only float64 array. Raises ValueError: what was found instead."""
+        try:
+            array = np.asarray(value, dtype=np.float64)
+        except (TypeError, ValueError, OverflowError):
+            raise ValueError("lists of unequal length, or something that is no number") from None
+        if array.size == 0 and None in self.shape:  # [] has no second axis to tell
+            array = array.reshape([side or 0 for side in self.shape])
+        if not self._fits(array.shape):
+            raise ValueError(" x ".join(map(str, array.shape)) or "a single number")
+        bad = np.argwhere(~(np.abs(array) <= LARGEST))  # NaN too
+        if len(bad):
+            place = "".join(f"[{i}]" for i in bad[0])
+            raise ValueError(f"{array[tuple(bad[0])]:g} at {place}")
+        if array.flags.writeable:  # the caller may go on to change it
+            array = array.copy()
+            array.setflags(write=False)
+        return array
+
+    def _fits(self, shape: tuple[int, ...]) -> bool:
+        return len(shape) == len(self.shape) and all(
+            side in (None, found) for side, found in zip(self.shape, shape, strict=True)
+        )
+
+
+@dataclass(frozen=True)
 class Parameter:
     """One parameter: its name, type, default, choices or range, and what it does."""
 
@@ -42,9 +87,12 @@ class Parameter:
     range: Range | None = None
     help: str = ""
     picture: bool = False  # the name of a picture file
+    points: Points | None = None  # an array
 
     def expected(self) -> str:
         """The values it takes, in words."""
+        if self.points:
+            return self.points.expected()
         if self.choices:
             return " or ".join(self.choices)
         if self.type is bool:
@@ -57,15 +105,30 @@ class Parameter:
         interval = [self.range.low, self.range.high] if self.range else None
         return {
             "name": self.name,
-            "type": "choice" if self.choices else self.type.__name__,
+            "type": "points" if self.points else "choice" if self.choices else self.type.__name__,
             "choices": list(self.choices) or None,
             "range": interval,
-            "default": self.default,
+            "shape": list(self.points.shape) if self.points else None,
+            "default": self.plain(self.default),
             "help": self.help,
         }
 
+    def plain(self, value: Value) -> Any:
+        """The value as JSON has it: an array as nested lists, whole numbers without a point."""
+        if self.points:
+            return [self.plain(part) for part in value] if np.ndim(value) else _number(value)
+        return value
+
+    def text(self, value: Value) -> str:
+        """The text that `parse` takes for this value, bit for bit."""
+        if self.points:
+            return json.dumps(self.plain(value), separators=(",", ":"))
+        return str(int(value)) if self.type is bool else str(value)
+
     def parse(self, text: str) -> Value:
         """The value that `text` stands for. Raises UsageError with what was expected and found."""
+        if self.points:
+            return self._parse_points(text)
         try:
             if self.type is bool:
                 return {"0": False, "1": True, "false": False, "true": True}[text.lower()]
@@ -73,8 +136,24 @@ class Parameter:
         except (ValueError, KeyError):
             raise UsageError(f"{self.name}: expected {self.expected()}, found {text!r}") from None
 
+    def _parse_points(self, text: str) -> Array:
+        try:
+            return self.check(json.loads(text))  # type: ignore[no-any-return]
+        except (json.JSONDecodeError, RecursionError):
+            short = text if len(text) <= 40 else text[:37] + "..."
+            message = f"{self.name}: expected {self.expected()}, found {short!r}"
+            raise UsageError(message) from None
+        except ValueError as error:
+            raise UsageError(str(error)) from None
+
     def check(self, value: Value) -> Value:
-        """The value itself if it is allowed, else ValueError."""
+        """The value itself if it is allowed, else ValueError; an array comes back read-only."""
+        if self.points:
+            try:
+                return self.points.check(value)
+            except ValueError as fault:
+                message = f"{self.name}: expected {self.expected()}, found {fault}"
+                raise ValueError(message) from None
         allowed = (
             value in self.choices
             if self.choices
@@ -96,10 +175,16 @@ class Parameter:
         return up if up <= self.range.high else self.type(self.range.low)
 
 
+def _number(value: float) -> float:
+    """The same number, bit for bit, as short as JSON can have it."""
+    short = value.is_integer() and abs(value) < 1e15 and not (value == 0.0 and str(value)[0] == "-")
+    return int(value) if short else float(value)
+
+
 def parameters_of(function: Callable[..., object]) -> dict[str, Parameter]:
     """The parameters of a function, or the fields of a dataclass, that have a text form.
 
-    Others (a Body, an array) are data: their caller gives them.
+    Others (a Body, an array without `Points`) are data: their caller gives them.
     """
     hints = get_type_hints(function, include_extras=True)
     found = {}
@@ -112,6 +197,10 @@ def parameters_of(function: Callable[..., object]) -> dict[str, Parameter]:
 
 def _parameter(name: str, hint: Any, default: Value) -> Parameter | None:
     hint, *extras = get_args(hint) if hasattr(hint, "__metadata__") else (hint,)
+    points = next((extra for extra in extras if isinstance(extra, Points)), None)
+    if points is not None:
+        value = points.check(default)
+        return Parameter(name, np.ndarray, value, help=points.help, points=points)
     choices = get_args(hint) if get_origin(hint) is Literal else ()
     kind = str if choices else hint
     if kind not in (bool, int, float, str):

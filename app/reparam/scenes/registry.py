@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import UsageError
+from .display import Display
 from .layers import Figure
 from .parameters import Parameter, parameters_of
 
@@ -39,7 +40,10 @@ class Scene:
     @cached_property
     def parameters(self) -> dict[str, Parameter]:
         """Its parameters by name, in the order of its signature."""
-        return parameters_of(self.build)
+        found = parameters_of(self.build)
+        shadowed = sorted(found.keys() & parameters_of(Display).keys())
+        assert not shadowed, f"{self.name}: {shadowed} are names of the display's parameters"
+        return found
 
     def __call__(self, values: Mapping[str, Any] | None = None) -> Figure:
         """The picture for these values, defaults for the others."""

@@ -35,6 +35,8 @@ KEYS = (
     Key(tuple("123456789"), "the note's figures", "show_figure", tuple(range(1, 10))),
     Key(("PageDown", "PageUp"), "next and previous scene", "turn_page", (1, -1)),
     Key(("R",), "reset the view; again: the parameters", "reset"),
+    Key(("Ctrl+Z",), "undo", "undo"),
+    Key(("Ctrl+Shift+Z", "Ctrl+Y"), "redo", "redo"),
     Key(("S",), "screenshot into the current folder", "screenshot"),
     Key(("F5",), "reload the shaders", "reload_shaders"),
     Key(("F11",), "full screen", "toggle_full_screen"),
@@ -43,6 +45,7 @@ KEYS = (
 )
 
 GESTURES = (
+    Gesture(("drag a point",), "change the scene; with Shift in steps"),
     Gesture(("drag",), "move the picture; turn a spatial surface"),
     Gesture(("right drag",), "move a spatial surface"),
     Gesture(("wheel",), "zoom at the mouse"),

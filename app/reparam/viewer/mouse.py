@@ -1,4 +1,4 @@
-"""The mouse: drags and the wheel, as changes of the state's views."""
+"""The mouse: drags of handles change parameters, other drags and the wheel the views."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import Any
 import glfw
 
 from ..gpu.painter import Panel
+from .hand import Hand
 from .state import State
 
 WHEEL = 1.15  # zoom a notch of the wheel
@@ -23,13 +24,18 @@ class Mouse:
         self._units: dict[str, float] = {}  # model units a pixel, by the space, at zoom 1
         self._at: tuple[float, float] = glfw.get_cursor_pos(window)  # as the events tell it
         self._held: tuple[str, bool] | None = None  # a space's name, and whether it is only moved
+        self._unsettled = False  # what the hand has to hear of, once a frame
+        self.hand = Hand(state)
+        self.inside = bool(glfw.get_window_attrib(window, glfw.HOVERED))
         glfw.set_cursor_pos_callback(window, self._on_move)
         glfw.set_mouse_button_callback(window, self._on_button)
         glfw.set_scroll_callback(window, self._on_scroll)
+        glfw.set_cursor_enter_callback(window, self._on_enter)
 
     def see(self, panels: list[Panel]) -> None:
         """These were drawn with the views as they are."""
         self._panels = panels
+        self.hand.see(panels)
         self._units = {
             panel.space.name: 2.0
             * panel.camera.half_height
@@ -51,14 +57,35 @@ class Mouse:
 
     def _panel_here(self) -> Panel | None:
         x, y = self._pixel()
-        for panel in self._panels:
-            region = panel.region
-            inside = 0 <= x - region.left < region.width and 0 <= y - region.bottom < region.height
-            if inside:
-                return panel
-        return None
+        return next((panel for panel in self._panels if panel.region.contains(x, y)), None)
+
+    def settle(self) -> None:
+        """Once a frame, however many events there were: what the hand does now."""
+        if not self._unsettled:
+            return
+        self._unsettled = False
+        if self.hand.held:
+            shift = (glfw.KEY_LEFT_SHIFT, glfw.KEY_RIGHT_SHIFT)
+            snap = any(glfw.get_key(self._window, key) == glfw.PRESS for key in shift)
+            self.hand.drag(*self._pixel(), self.scale(), snap)
+        elif self._held is None:
+            self.hand.point_at(*self._pixel(), self.scale())
+
+    def scale(self) -> float:
+        """Framebuffer pixels for one at content scale 1."""
+        return float(glfw.get_window_content_scale(self._window)[0])
+
+    def _on_enter(self, _: Any, entered: int) -> None:
+        self.inside = bool(entered)
+        self._state.refresh = True
 
     def _on_button(self, _: Any, button: int, action: int, mods: int) -> None:
+        self.settle()  # where the mouse was before
+        self.hand.release()
+        if button == glfw.MOUSE_BUTTON_LEFT and action == glfw.PRESS:
+            self._unsettled = True
+            if self.hand.take(*self._pixel(), self.scale()):
+                return
         panel = self._panel_here() if action == glfw.PRESS else None
         moves = button != glfw.MOUSE_BUTTON_LEFT or bool(mods & glfw.MOD_SHIFT)
         self._held = (panel.space.name, moves) if panel else None
@@ -67,6 +94,7 @@ class Mouse:
         before = self._pixel()
         self._at = (x, y)
         after = self._pixel()
+        self._unsettled = True
         name, moves = self._held or ("", False)
         panel = next((panel for panel in self._panels if panel.space.name == name), None)
         if self._held is None or panel is None:

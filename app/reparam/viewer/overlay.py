@@ -1,14 +1,83 @@
-"""What the window adds to the frame: a notice, and the help."""
+"""What the window adds to the frame: handles, a notice, and the help."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+from math import ceil, floor
+
 from ..gpu.labels import SMALLEST, Labels, measure
+from ..gpu.painter import UNITS, Painter, Panel
+from ..scenes.layers import Handles
+from .hand import Grip, Hand, model_units, snap_step
 from .keys import keys_rows
 
 INK = (1.0, 1.0, 1.0)
 GROUND = (0.10, 0.10, 0.12, 0.88)
 HELP_GROUND = (0.10, 0.10, 0.12, 0.95)  # a checkerboard behind small text disturbs
 NOTICE = 1.9  # its height in em
+LARGER = 1.35  # the handle under the mouse
+MOST = 2000  # handles of a layer that are shown at once
+GRID = (0.0, 0.45, 0.70, 0.16)
+AXIS = (0.0, 0.45, 0.70, 0.45)
+
+
+def draw_handles(painter: Painter, hand: Hand, size: tuple[int, int]) -> None:
+    """All that can be dragged; more than a picture could show only under the mouse."""
+    for panel in hand.panels:
+        for layer in panel.space.layers:
+            if isinstance(layer, Handles) and 0 < len(layer.at) <= MOST:
+                _in_panel(painter, panel, layer, size)
+
+
+def draw_grip(painter: Painter, hand: Hand, grip: Grip, size: tuple[int, int]) -> None:
+    """The handle under the mouse, larger, and beside it its name and coordinates."""
+    panel, layer = hand.panel(grip.space), hand.layer(grip)
+    if panel is None or layer is None:
+        return
+    _in_panel(painter, panel, replace(layer, radius=LARGER * layer.radius), size, grip.index)
+    em = 0.9 * _em(size)
+    text = hand.described(grip)
+    width, height = measure(text, round(em)) + em, 1.6 * em
+    x, y = hand.place(grip)
+    gap = LARGER * layer.radius * min(size) / UNITS + 0.5 * em
+    left = min(max(0.0, x + gap), size[0] - width)
+    bottom = y + gap if y + gap + height < size[1] else y - gap - height
+    painter.labels.box(left, bottom, width, height, size, GROUND)
+    at = (left + em / 2, bottom + height / 2)
+    painter.labels.text(text, at, size, em, INK, anchor=(0.0, 0.5))
+
+
+def draw_grid(labels: Labels, panel: Panel, size: tuple[int, int], scale: float) -> None:
+    """The lines whose crossings Shift snaps to, in a space of the plane."""
+    if panel.space.spatial:
+        return
+    region, camera = panel.region, panel.camera
+    step = snap_step(model_units(panel), scale)
+    middle = (region.left + region.width / 2, region.bottom + region.height / 2)
+    half = (camera.half_width, camera.half_height)
+    unit, thin = model_units(panel), max(1.0, round(scale))
+    for axis in (0, 1):
+        first = ceil((camera.center[axis] - half[axis]) / step)
+        last = floor((camera.center[axis] + half[axis]) / step)
+        for k in range(first, last + 1):
+            at = round(middle[axis] + (k * step - camera.center[axis]) / unit - thin / 2)
+            color = GRID if k else AXIS
+            if axis == 0:
+                labels.box(at, region.bottom, thin, region.height, size, color)
+            else:
+                labels.box(region.left, at, region.width, thin, size, color)
+
+
+def _in_panel(
+    painter: Painter, panel: Panel, layer: Handles, size: tuple[int, int], only: int | None = None
+) -> None:
+    region = panel.region
+    box = (region.left, region.bottom, region.width, region.height)
+    painter.ctx.viewport = painter.ctx.scissor = box
+    viewport = (region.width, region.height)
+    painter.strokes.draw_handles(layer, panel.camera, viewport, min(size) / UNITS, only)
+    painter.ctx.scissor = None
+    painter.ctx.viewport = (0, 0, *size)
 
 
 def draw_notice(labels: Labels, text: str, size: tuple[int, int]) -> None:

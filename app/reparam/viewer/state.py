@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from math import asin, sin
 from typing import Any
 
+import numpy as np
+
 from ..geometry.camera import View
 from ..scenes.registry import scene_names
 from ..subject import Subject, open_subject, scene_subject
+from .history import History, Moment
 
 LEVELS = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256)
 CHECKS = (2, 4, 8, 16, 32)
@@ -21,7 +24,11 @@ Motion = Callable[[float], float | None]  # a value by the clock, None when it i
 
 
 class State:
-    """A subject with its views. `changed` is set whenever the picture must be drawn again."""
+    """A subject with its views.
+
+    `changed` is set whenever the picture must be drawn again, `refresh` when only what the window
+    shows over it is another.
+    """
 
     def __init__(self, subject: Subject, evaluators: tuple[str, ...], evaluator: str) -> None:
         self.subject = subject
@@ -30,12 +37,15 @@ class State:
         self.views: dict[str, View] = {}
         self.help = False
         self.changed = True
+        self.refresh = False
         self.notice = ""
         self._notice_until = 0.0
         self._now = 0.0
         self._motion: tuple[str, Motion] | None = None  # of the parameter of that name
         self._visited: dict[str, tuple[Subject, dict[str, View]]] = {}
         self._opened = subject if subject.data else None
+        self._history = History()
+        self._gesture: object = None
 
     # Time -----------------------------------------------------------------------------------
 
@@ -60,13 +70,13 @@ class State:
         self._now = now
         if self.notice and now >= self._notice_until:
             self.notice = ""
-            self.changed = True
+            self.refresh = True
 
     def say(self, text: str, seconds: float = NOTICE_SECONDS) -> None:
         """Show one line for a moment; it is printed too."""
         self.notice = text
         self._notice_until = self._now + seconds
-        self.changed = True
+        self.refresh = True
         print(text, flush=True)
 
     # Keys -----------------------------------------------------------------------------------
@@ -102,12 +112,13 @@ class State:
         index = self.evaluators.index(self.evaluator)
         self.evaluator = self.evaluators[(index + 1) % len(self.evaluators)]
         alone = " (the only one here: tessellation needs OpenGL 4.0)"
+        self.changed = True
         self.say(f"evaluator = {self.evaluator}{alone if len(self.evaluators) == 1 else ''}")
 
     def toggle_help(self) -> None:
         """The list of keys, on or off."""
         self.help = not self.help
-        self.changed = True
+        self.refresh = True
 
     def show_figure(self, number: int) -> None:
         """The note's figure of that number."""
@@ -128,11 +139,29 @@ class State:
         self._motion = None
         if any(view != View() for view in self.views.values()):
             self.views = {}
+            self.changed = True
             self.say("view reset")
             return
-        fresh = scene_subject(self.subject.scene, self.subject.data, self.subject.title)
-        self.subject = fresh
+        self._replace(scene_subject(self.subject.scene, self.subject.data, self.subject.title))
         self.say("parameters reset")
+
+    def undo(self) -> None:
+        """Back to before the last change of parameters."""
+        step = self._history.undo()
+        if step is None:
+            self.say("nothing to undo")
+        else:
+            self._return_to(step.before, step.after)
+            self.say(f"undone: {difference(step.after.subject, step.before.subject)}")
+
+    def redo(self) -> None:
+        """The change undone last, once more."""
+        step = self._history.redo()
+        if step is None:
+            self.say("nothing to redo")
+        else:
+            self._return_to(step.after, step.before)
+            self.say(f"redone: {difference(step.before.subject, step.after.subject)}")
 
     def play(self) -> None:
         """Move the scene's parameter to and fro, or stop."""
@@ -163,14 +192,58 @@ class State:
                 return None
             return self._at("morph", min(1.0, phase + way) if end else max(0.0, phase - way))
 
+        before = Moment(self.subject, dict(self.views))
+        self._history.note(before, Moment(self.subject.changed("morph", end), before.views))
         self._motion = ("morph", motion)
         self.say(f"morph to {end:.0f}")
+
+    # Parameters -----------------------------------------------------------------------------
+
+    def change(self, changes: Mapping[str, Any]) -> None:
+        """Set parameters: one step that can be undone, with the others of the same gesture.
+
+        Raises ValueError for a value that is not allowed.
+        """
+        subject = self.subject
+        for name, value in changes.items():
+            subject = subject.changed(name, value)
+        self._replace(subject)
+
+    def begin_gesture(self) -> None:
+        """What changes from now on, until `end_gesture`, is one step: a drag of the mouse."""
+        self._gesture = object()
+
+    def end_gesture(self) -> None:
+        """The gesture is over."""
+        self._gesture = None
+
+    def _replace(self, subject: Subject) -> None:
+        before = Moment(self.subject, dict(self.views))
+        self.subject = subject
+        self._history.note(before, Moment(subject, before.views), self._gesture)
+        self.changed = True
+
+    def _return_to(self, there: Moment, here: Moment) -> None:
+        """To `there`, the other side of a step whose this side is `here`."""
+        self._motion = None
+        if self.subject.scene.name != there.subject.scene.name:
+            self._visit(there.subject.scene.name)
+        if self.views == here.views:  # else the user looks from elsewhere by now
+            self.views = dict(there.views)
+        self.subject = there.subject
+        self.changed = True
 
     # Mouse ----------------------------------------------------------------------------------
 
     def view(self, space: str) -> View:
         """How a space is seen."""
         return self.views.get(space, View())
+
+    def keep_view(self, space: str, view: View) -> None:
+        """The view by which the picture stays where it is while a gesture changes the scene."""
+        if view != self.view(space):
+            self.views[space] = view
+            self._history.look(Moment(self.subject, dict(self.views)), self._gesture)
 
     def pan(self, space: str, dx: float, dy: float) -> None:
         """Move a space's picture by (dx, dy) model units."""
@@ -208,9 +281,8 @@ class State:
         self.changed = True
 
     def _tell(self, name: str, value: Any) -> None:
-        self._set(name, value)
-        shown = {True: "on", False: "off"}.get(value, value) if isinstance(value, bool) else value
-        self.say(f"{name} = {shown}")
+        self.change({name: value})
+        self.say(f"{name} = {self.subject.shown(name)}")
 
     def _cycle(self, name: str) -> None:
         self._tell(name, self.subject.parameters()[name].following(self.subject.value(name)))
@@ -239,7 +311,16 @@ class State:
         else:
             subject, self.views = open_subject(name), {}
         self.subject = replace(subject, display=display)
+        self.changed = True
         self.say(f"{name}: {self.subject.title}")
+
+
+def difference(before: Subject, after: Subject) -> str:
+    """Names and new values of the parameters that differ."""
+    if before.scene.name != after.scene.name:
+        return after.scene.name
+    names = [n for n in after.parameters() if not np.array_equal(before.value(n), after.value(n))]
+    return ", ".join(f"{name} = {after.shown(name)}" for name in names)
 
 
 def _unsmooth(value: float) -> float:

@@ -18,7 +18,7 @@ from ..gpu.targets import Target
 from ..subject import Subject
 from .keys import KEYS
 from .mouse import Mouse
-from .overlay import draw_help, draw_notice
+from .overlay import draw_grid, draw_grip, draw_handles, draw_help, draw_notice
 from .screen import screen_missing
 from .state import State
 
@@ -94,9 +94,12 @@ class Viewer:
         """Until the window is closed: wait, and draw only what changed."""
         while not glfw.window_should_close(self._window):
             self._tick()
-            drawn = self._draw() if self.state.changed else 0.0
+            self._mouse.settle()
+            began = time.perf_counter()
+            if drew := self._draw_changes():
+                time.sleep(max(0.0, began + FRAME_SECONDS - time.perf_counter()))
             if self.state.moving:
-                glfw.wait_events_timeout(max(1e-3, FRAME_SECONDS - drawn))
+                glfw.wait_events_timeout(1e-3 if drew else FRAME_SECONDS)
             elif self.state.notice:
                 glfw.wait_events_timeout(max(1e-3, self.state.seconds_of_notice()))
             else:
@@ -107,31 +110,40 @@ class Viewer:
 
     # Drawing --------------------------------------------------------------------------------
 
-    def _draw(self) -> float:
-        """Draw a frame; returns the seconds it took. Nothing while iconified."""
+    def _draw_changes(self) -> bool:
+        """What is to be drawn again, if anything; whether it was."""
+        if self.state.changed:
+            return self._draw()
+        if self.state.refresh and self._target is not None:
+            self._present(self._target)
+            return True
+        return False
+
+    def _draw(self) -> bool:
+        """Draw a frame; whether it could be done. Nothing while iconified."""
         size = glfw.get_framebuffer_size(self._window)
         if min(size) < 1:
-            return 0.0
-        began = time.perf_counter()
+            return False
         self.state.changed = False
         glfw.set_window_title(self._window, f"reparam: {self.state.subject.title}")
         try:
             target = self._draw_frame(size)
         except UNDRAWABLE as error:
             self.state.say(str(error), 8.0)
-            self.state.changed = False  # what can be shown is presented now
             if self._target is None or self._target.size != size:
-                return 0.0
+                return False
             target = self._target
         self._present(target)
-        return time.perf_counter() - began
+        return True
 
     def _draw_frame(self, size: tuple[int, int]) -> Target:
         subject = self.state.subject
+        figure = subject.figure()
+        self._mouse.hand.steady(figure, subject.display.net)
         self._renew_target(size, subject.display.samples)
         assert self._target is not None
         panels = self._painter.draw(
-            subject.figure(),
+            figure,
             self._target,
             subject.display,
             evaluator=self.state.evaluator,
@@ -152,12 +164,25 @@ class Viewer:
 
     def _present(self, target: Target) -> None:
         """The frame onto the screen, and over it what only the window has."""
+        self.state.refresh = False
         target.show()
+        self._draw_hand(target.size)
         if self.state.help:
             draw_help(self._painter.labels, target.size)
         if self.state.notice:
             draw_notice(self._painter.labels, self.state.notice, target.size)
         glfw.swap_buffers(self._window)
+
+    def _draw_hand(self, size: tuple[int, int]) -> None:
+        """The handles, while somebody is there to drag them."""
+        hand, display = self._mouse.hand, self.state.subject.display
+        if self._mouse.inside or hand.held or display.net:
+            draw_handles(self._painter, hand, size)
+        if (grip := hand.chosen if hand.held else hand.over) is not None:
+            panel = hand.panel(grip.space)
+            if hand.snapping and panel is not None:
+                draw_grid(self._painter.labels, panel, size, self._mouse.scale())
+            draw_grip(self._painter, hand, grip, size)
 
     # Keys -----------------------------------------------------------------------------------
 
@@ -172,9 +197,13 @@ class Viewer:
         return bound
 
     def _on_key(self, _: Any, key: int, scancode: int, action: int, mods: int) -> None:
-        if action == glfw.RELEASE or mods & (glfw.MOD_CONTROL | glfw.MOD_ALT | glfw.MOD_SUPER):
+        if action == glfw.RELEASE or mods & glfw.MOD_ALT:
             return
-        method, arguments = self._actions.get(key_name(key, scancode), (None, ()))
+        name, nothing = key_name(key, scancode), (None, ())
+        held = "CTRL+" if mods & (glfw.MOD_CONTROL | glfw.MOD_SUPER) else ""
+        plain = self._actions.get(held + name, nothing)  # Shift changes nothing but what it names
+        shifted = f"{held}SHIFT+{name}" if mods & glfw.MOD_SHIFT else ""
+        method, arguments = self._actions.get(shifted, plain)
         if method is None or (action == glfw.REPEAT and not arguments):
             return  # a key held down repeats only what goes on: levels and pages
         self._tick()  # the clock stood still while the window waited for this key

@@ -5,13 +5,28 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated
 
+import numpy as np
+
 from ...geometry import planar_maps
 from ...geometry.net import control_net
 from ...geometry.planar_maps import R
 from .. import palette
 from ..claims import Claim
 from ..directions import directions
-from ..layers import Array, Color, ControlNet, Figure, IsoLines, Label, Layer, Patches, Space, plane
+from ..handles import COEFFICIENTS, Coefficients, morph_handles
+from ..layers import (
+    Array,
+    Color,
+    ControlNet,
+    Figure,
+    IsoLines,
+    Label,
+    Layer,
+    Patches,
+    Space,
+    including,
+    plane,
+)
 from ..parameters import Range
 from ..registry import scene
 
@@ -28,8 +43,10 @@ DOMAIN = control_net([[(0, 1), (1, 1)], [(0, 0), (1, 0)]])
 def fig4(
     morph: Annotated[float, Range(0, 1, 0.1), "the image: 0 the aligned square, 1 r"] = 1.0,
     lines: Annotated[int, Range(1, 64), "pieces between the iso-lines of u and of v"] = 8,
+    points: Coefficients = COEFFICIENTS,
 ) -> Figure:
-    net = R if morph == 1.0 else planar_maps.morph(R, morph)
+    r = R if np.array_equal(points, COEFFICIENTS) else control_net(points)
+    net = r if morph == 1.0 else planar_maps.morph(r, morph)
     domain = (
         *mapped(DOMAIN, palette.DOMAIN, lines),
         title("the domain, (u, v) in [0,1]²", 0.5, 1.08),
@@ -38,10 +55,11 @@ def fig4(
         *mapped(net, palette.IMAGE, lines),
         title("the image, (x, y) = r(u, v)" if morph == 1.0 else "on the way to r", 0.0, 1.72),
         ControlNet(net, palette.CONTROL_NET),
+        *morph_handles("points", r, morph),
     )
     spaces = (
         Space("domain", plane(-0.14, -0.04, 1.04, 1.24), domain),
-        Space("physical", plane(-1.7, -1.52, 1.52, 1.98), image),
+        Space("physical", including(plane(-1.7, -1.52, 1.52, 1.98), net), image),
     )
     caption = f"(1 − w) (V, −U) + w r(u, v),   w = {morph:.4g},   U = 2u − 1,  V = 2v − 1"
     return Figure(spaces, (caption,))

@@ -15,17 +15,18 @@ from numpy.typing import NDArray
 
 from ...geometry import camera, planar_maps
 from ...geometry.evaluate import jacobian_determinant
+from ...geometry.net import control_net
 from ...geometry.planar_maps import ALIGNED_IDENTITY, R
 from ...geometry.regions import count_regions
 from .. import palette
 from ..attachments import Checks, Filter, Image, Wrap, attachment
 from ..claims import Claim, Measure
 from ..directions import directions
-from ..layers import ControlNet, Figure, IsoLines, Patches, Space, Texture, plane
+from ..handles import COEFFICIENTS, Coefficients, morph_handles
+from ..layers import ControlNet, Figure, IsoLines, Patches, Space, Texture, including, plane
 from ..parameters import Range
 from ..registry import scene
 
-MAPS = {"identity": ALIGNED_IDENTITY, "r": R}
 ATTACHED = {
     "identity": "attached by the identity, (s, t) = (V, −U)",
     "r": "attached by r itself, (s, t) = r(u, v)",
@@ -33,6 +34,7 @@ ATTACHED = {
 CHECKS_ON_R = {"identity": "the squares are squeezed", "r": "the squares stay square"}
 IMAGE_ON_R = {"identity": "the picture is squeezed", "r": "the picture stays as it was"}
 FORMULA = "r(u, v) = ( V(3 − U²)/2, −U(3 − V²)/2 )    U = 2u − 1,  V = 2v − 1"
+EDITED = "r(u, v), bi-quadratic, with its control points moved"
 
 
 @scene(
@@ -48,18 +50,25 @@ def fig5(
     wrap: Wrap = "mirror",
     filter: Filter = "smooth",
     morph: Annotated[float, Range(0, 1, 0.1), "the patch: 0 the square, 1 the image of r"] = 1.0,
+    points: Coefficients = COEFFICIENTS,
 ) -> Figure:
-    net = R if morph == 1.0 else planar_maps.morph(R, morph)
+    edited = not np.array_equal(points, COEFFICIENTS)
+    r = control_net(points) if edited else R
+    net = r if morph == 1.0 else planar_maps.morph(r, morph)
+    maps = {"identity": ALIGNED_IDENTITY, "r": r}
     layers = (
-        Patches(net, Texture(MAPS[texture], attachment(checks, image, wrap, filter))),
+        Patches(net, Texture(maps[texture], attachment(checks, image, wrap, filter))),
         IsoLines(net, u=(0.0, 1.0), v=(0.0, 1.0), color=palette.INK, width=1.6),
         *directions(net),
         ControlNet(net, palette.CONTROL_NET),
+        *morph_handles("points", r, morph),
     )
-    space = Space("physical", plane(-1.65, -1.5, 1.5, 1.65), layers)
-    if morph == 1.0:
+    space = Space("physical", including(plane(-1.65, -1.5, 1.5, 1.65), net), layers)
+    if morph == 1.0 and texture == "identity" and edited:
+        caption = (ATTACHED[texture], EDITED)
+    elif morph == 1.0:
         seen = (IMAGE_ON_R if image else CHECKS_ON_R)[texture]
-        caption = (f"{ATTACHED[texture]}: {seen}", FORMULA)
+        caption = (f"{ATTACHED[texture]}: {seen}", EDITED if edited else FORMULA)
     else:
         shape = f"drawn on (1 − w) (V, −U) + w r(u, v),   w = {morph:.4g}"
         caption = (ATTACHED[texture], shape)
