@@ -27,8 +27,9 @@ out vec3 normal;
 
 void main() {
     int patch_index = first_patch + gl_InstanceID * patch_stride;
-    point = evaluate(net, patch_index, degree, parameters);
 #ifdef NORMALS
     normal = surface_normal(net, patch_index, degree, parameters, point);
+#else
+    point = evaluate(net, patch_index, degree, parameters);
 #endif
 }

@@ -47,21 +47,26 @@ void main() {
     int patch_index = patch_of_surface[0];
     ivec2 step_index = tile.xy + ivec2(gl_TessCoord.xy * vec2(tile.zw) + 0.5);
     vec4 uv = grid_parameters(step_index, level);
+#if defined(PROBE) || defined(LIT)
+    vec4 point;
+    vec3 normal = surface_normal(position_net, patch_index, position_degree, uv, point);
+#else
     vec4 point = evaluate(position_net, patch_index, position_degree, uv);
+#endif
 #ifdef PROBE
     int texel = (patch_index * (level + 1) + step_index.x) * (level + 1) + step_index.y;
     vec2 center = vec2(texel % probe_size.x, texel / probe_size.x) + 0.5;
     gl_Position = vec4(2.0 * center / vec2(probe_size) - 1.0, 0.0, 1.0);
     probed_parameters = uv;
     probed_point = point;
-    probed_normal = surface_normal(position_net, patch_index, position_degree, uv, point);
+    probed_normal = normal;
 #else
     emit_point(point);
 #ifdef TEXTURED
     emit_map(evaluate(texture_net, patch_index * texture_stride, texture_degree, uv), uv.xz);
 #endif
 #ifdef LIT
-    emit_normal(surface_normal(position_net, patch_index, position_degree, uv, point));
+    emit_normal(normal);
 #endif
 #endif
 }

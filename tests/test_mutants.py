@@ -51,6 +51,11 @@ MUTANTS = {  # file, what it says, what it shall say
         "vec4 evaluate(sampler2D net, int patch_index, ivec2 degree, vec4 uv) {",
         "vec4 evaluate(sampler2D net, int patch_index, ivec2 degree, vec4 uv) { uv = uv.zwxy;",
     ),
+    "u and v swapped in the evaluator of normals": (
+        "shaders/lib/normal.glsl",
+        "point = evaluate_derivatives(net, patch_index, degree, uv, along_u, along_v);",
+        "point = evaluate_derivatives(net, patch_index, degree, uv.zwxy, along_u, along_v);",
+    ),
     "u and v swapped in a file": (
         "app/reparam/files/bv.py",
         "_points(numbers, m * n, 3).reshape(m, n, 3)",

@@ -11,7 +11,7 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
-from reparam.geometry.evaluate import evaluate
+from reparam.geometry.evaluate import evaluate, grid_parameters
 from reparam.geometry.net import control_net
 from reparam.geometry.planar_maps import R
 from reparam.gpu.readback import read_points
@@ -83,6 +83,9 @@ def test_u_runs_along_the_first_index(studio: Studio, evaluator: str) -> None:
     read = read_points(studio.painter, evaluator, NET, 1)
     expected = {(u, v): NET[-u, -v] for u in (0, 1) for v in (0, 1)}
     for (u, _, v, _), point in zip(read.parameters[0], read.points[0], strict=True):
+        assert point == pytest.approx(expected[int(u), int(v)], abs=1e-6)
+    alone = studio.painter.evaluation.read(NET, grid_parameters(1))[0]  # without normals
+    for (u, _, v, _), point in zip(grid_parameters(1), alone, strict=True):
         assert point == pytest.approx(expected[int(u), int(v)], abs=1e-6)
 
 

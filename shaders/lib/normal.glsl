@@ -19,9 +19,7 @@ float largest_component(vec3 v) {
 
 // The sine between the tangents, as a vector. Zero too where one of them is tiny beside the
 // other: at a pole it is rounding alone.
-vec3 cross_of_tangents(sampler2D net, int patch_index, ivec2 degree, vec4 uv, vec4 point) {
-    vec4 along_u, along_v;
-    evaluate_derivatives(net, patch_index, degree, uv, along_u, along_v);
+vec3 cross_of_tangents(vec4 point, vec4 along_u, vec4 along_v) {
     vec3 p_u = projected_derivative(point, along_u), p_v = projected_derivative(point, along_v);
     float size_u = largest_component(p_u), size_v = largest_component(p_v);
     if (min(size_u, size_v) <= SINGULAR_SINE * max(size_u, size_v))
@@ -33,13 +31,16 @@ bool is_singular(vec3 normal) {
     return dot(normal, normal) <= SINGULAR_SINE * SINGULAR_SINE;
 }
 
-vec3 surface_normal(sampler2D net, int patch_index, ivec2 degree, vec4 uv, vec4 point) {
-    vec3 normal = cross_of_tangents(net, patch_index, degree, uv, point);
+// The normal; the point comes with it, the same bits as evaluate()'s.
+vec3 surface_normal(sampler2D net, int patch_index, ivec2 degree, vec4 uv, out vec4 point) {
+    vec4 along_u, along_v;
+    point = evaluate_derivatives(net, patch_index, degree, uv, along_u, along_v);
+    vec3 normal = cross_of_tangents(point, along_u, along_v);
     // A loop and not an `if`: software rasterisers execute an `if` for every vertex.
     for (float inward = SINGULAR_STEP; is_singular(normal) && inward < 1.0; inward *= SINGULAR_FACTOR) {
         vec4 inside = mix(uv, vec4(0.5), inward);
-        vec4 nearby = evaluate(net, patch_index, degree, inside);
-        normal = cross_of_tangents(net, patch_index, degree, inside, nearby);
+        vec4 nearby = evaluate_derivatives(net, patch_index, degree, inside, along_u, along_v);
+        normal = cross_of_tangents(nearby, along_u, along_v);
     }
     return dot(normal, normal) > 0.0 ? normalize(normal) : vec3(0.0, 0.0, 1.0);
 }

@@ -42,6 +42,15 @@ def test_points_and_normals(studio: Studio, degrees: tuple[int, int], rational: 
         assert np.abs(project(one.points) - project(two.points)).max() < 2e-7 * sizes
 
 
+@pytest.mark.parametrize("degrees", DEGREES + HIGH)
+def test_normals_move_no_point(studio: Studio, degrees: tuple[int, int]) -> None:
+    """OpenGL's own: GL_AUTO_NORMAL takes another algorithm and moves points in the last bits."""
+    nets = random_nets(np.random.default_rng(degrees), degrees, True)
+    read, parameters = studio.painter.evaluation.read, grid_parameters(7)
+    lit = read(nets, parameters, normals=True)
+    assert (read(nets, parameters) == lit[..., :4]).all()
+
+
 @pytest.mark.parametrize("evaluator", EVALUATORS)
 @pytest.mark.parametrize("degrees", [(0, 0), (0, 3), (2, 0)])
 def test_degree_zero(studio: Studio, evaluator: str, degrees: tuple[int, int]) -> None:
