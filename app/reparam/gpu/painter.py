@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import moderngl
@@ -61,7 +62,7 @@ class Panel:
 def arrange(
     figure: Figure, size: tuple[int, int], views: Mapping[str, View], plain: bool, net: bool
 ) -> list[Panel]:
-    """The spaces side by side (one above another in an upright picture), above the caption.
+    """The spaces where `regions` puts them, above the caption.
 
     With `net` the control nets must be seen too.
     """
@@ -69,22 +70,48 @@ def arrange(
     unit = min(size) / UNITS
     foot = 0 if plain else round((len(figure.caption) * CAPTION_LINE + PADDING) * unit)
     foot = min(foot, height - 1)
-    count = len(figure.spaces)
-    across = width >= height - foot
     panels = []
-    for i, space in enumerate(figure.spaces):
-        if across:
-            left, right = width * i // count, width * (i + 1) // count
-            region = Region(left, foot, max(1, right - left), height - foot)
-        else:
-            low = foot + (height - foot) * (count - 1 - i) // count
-            high = foot + (height - foot) * (count - i) // count
-            region = Region(0, low, width, max(1, high - low))
+    for space, region in zip(
+        figure.spaces, regions(figure.spaces, width, height - foot, foot), strict=True
+    ):
         points = extent(space, net)
         view = views.get(space.name, View())
         camera = frame(points, region.width, region.height, view, space.spatial)
         panels.append(Panel(space, region, camera))
     return panels
+
+
+def regions(spaces: Sequence[Space], width: int, height: int, foot: int) -> list[Region]:
+    """Columns side by side (rows one above another in an upright picture), `foot` from below.
+
+    A space that stands `below` belongs to the column of the one before it. Columns are as wide,
+    and spaces in a column as high, as they ask for in proportion; together they fill the whole.
+    """
+    columns: list[list[Space]] = []
+    for space in spaces:
+        if space.below and columns:
+            columns[-1].append(space)
+        else:
+            columns.append([space])
+    found = []
+    across = width >= height
+    wide = _cuts([column[0].width for column in columns], width if across else height)
+    for column, (start, end) in zip(columns, wide, strict=True):
+        high = _cuts([space.height for space in column], height if across else end - start)
+        for low, up in high:  # both count from the top
+            if across:
+                region = Region(start, foot + height - up, end - start, up - low)
+            else:
+                region = Region(0, foot + height - start - up, width, up - low)
+            found.append(region)
+    return found
+
+
+def _cuts(shares: Sequence[float], length: int) -> list[tuple[int, int]]:
+    """A length cut in proportion: start and end of each part, at least 1 long."""
+    ends = np.cumsum([0.0, *shares]) / sum(shares) * length
+    whole = [round(end) for end in ends]
+    return [(a, max(a + 1, b)) for a, b in pairwise(whole)]
 
 
 def extent(space: Space, net: bool) -> Array:

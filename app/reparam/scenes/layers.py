@@ -144,6 +144,9 @@ class Space:
     bounds: Array  # (2, 3) smallest and largest coordinates, or (k, 3) points, to be seen
     layers: tuple[Layer, ...]
     spatial: bool = False  # orbited, with depth; else the plane z = 0 seen from above
+    width: float = 1.0  # of its column, beside the other columns
+    height: float = 1.0  # beside the others in its column
+    below: bool = False  # in the column of the space before it, not in one of its own
 
     def __post_init__(self) -> None:
         _freeze(self)
