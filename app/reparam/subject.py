@@ -28,8 +28,11 @@ class Subject:
     title: str = ""
 
     def figure(self) -> Figure:
-        """The picture for these values."""
-        return self.scene({**self.values, **self.data})
+        """The picture for these values. Raises UsageError if the scene refuses them."""
+        try:
+            return self.scene({**self.values, **self.data})
+        except ValueError as fault:
+            raise UsageError(str(fault)) from fault
 
     def parameters(self) -> dict[str, Parameter]:
         """The scene's parameters, then the display's."""

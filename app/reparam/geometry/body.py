@@ -96,6 +96,25 @@ def _stack(patches: Sequence[Patch], members: list[int]) -> Array:
         raise
 
 
+def with_points(nets: Array, moved: Array) -> Array:
+    """A copy of nets (P, m, n, 4) with control points moved, their weights kept.
+
+    Each row of `moved` (k, 6) is patch, row, column, x, y, z. Raises ValueError for a place that
+    is not in the nets and for what `check_net` refuses.
+    """
+    places = moved[:, :3].astype(int)
+    inside = (places == moved[:, :3]) & (places >= 0) & (places < nets.shape[:3])
+    if not inside.all():
+        row = int(np.argwhere(~inside)[0, 0])
+        limits = " x ".join(map(str, nets.shape[:3]))
+        found = ", ".join(f"{value:g}" for value in moved[row, :3])
+        raise ValueError(f"moved[{row}]: expected a place among {limits}, found {found}")
+    nets = nets.copy()
+    patch, i, j = places.T
+    nets[patch, i, j, :3] = nets[patch, i, j, 3:] * moved[:, 3:]
+    return check_net(nets)
+
+
 def homogeneous(points: Array) -> Array:
     """Points (..., 3) as (..., 4) of weight 1."""
     return np.concatenate([points, np.ones((*points.shape[:-1], 1))], -1)

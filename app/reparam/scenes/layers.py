@@ -124,6 +124,7 @@ class Handles:
     names: tuple[str, ...] = ()  # of each point, for the line that tells its coordinates
     color: Color = (0.8, 0.475, 0.655)  # reddish purple
     radius: float = 4.0  # figure units
+    quiet: bool = False  # many: in the window only with the control net, or under the mouse
 
     def __post_init__(self) -> None:
         _freeze(self)

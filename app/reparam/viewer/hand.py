@@ -8,6 +8,7 @@ from math import ceil, floor, log10
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import ReparamError
 from ..geometry.camera import Camera, view_through
 from ..gpu.painter import Panel, extent
 from ..scenes.layers import Figure, Handles
@@ -152,7 +153,7 @@ class Hand:
         """The layers as they will be drawn next, if they can be drawn."""
         try:
             spaces = {space.name: space for space in self._state.subject.figure().spaces}
-        except ValueError:
+        except ReparamError:
             return
         self.see([replace(p, space=spaces.get(p.space.name, p.space)) for p in self.panels])
 

@@ -16,16 +16,19 @@ GROUND = (0.10, 0.10, 0.12, 0.88)
 HELP_GROUND = (0.10, 0.10, 0.12, 0.95)  # a checkerboard behind small text disturbs
 NOTICE = 1.9  # its height in em
 LARGER = 1.35  # the handle under the mouse
+LEAST = 3.0  # figure units, its radius before that
 MOST = 2000  # handles of a layer that are shown at once
 GRID = (0.0, 0.45, 0.70, 0.16)
 AXIS = (0.0, 0.45, 0.70, 0.45)
 
 
-def draw_handles(painter: Painter, hand: Hand, size: tuple[int, int]) -> None:
-    """All that can be dragged; more than a picture could show only under the mouse."""
+def draw_handles(painter: Painter, hand: Hand, size: tuple[int, int], quiet: bool) -> None:
+    """All that can be dragged, the quiet ones too if asked; too many only under the mouse."""
     for panel in hand.panels:
         for layer in panel.space.layers:
-            if isinstance(layer, Handles) and 0 < len(layer.at) <= MOST:
+            if not isinstance(layer, Handles) or not 0 < len(layer.at) <= MOST:
+                continue
+            if quiet or not layer.quiet:
                 _in_panel(painter, panel, layer, size)
 
 
@@ -34,12 +37,13 @@ def draw_grip(painter: Painter, hand: Hand, grip: Grip, size: tuple[int, int]) -
     panel, layer = hand.panel(grip.space), hand.layer(grip)
     if panel is None or layer is None:
         return
-    _in_panel(painter, panel, replace(layer, radius=LARGER * layer.radius), size, grip.index)
+    radius = LARGER * max(layer.radius, LEAST)
+    _in_panel(painter, panel, replace(layer, radius=radius), size, grip.index)
     em = 0.9 * _em(size)
     text = hand.described(grip)
     width, height = measure(text, round(em)) + em, 1.6 * em
     x, y = hand.place(grip)
-    gap = LARGER * layer.radius * min(size) / UNITS + 0.5 * em
+    gap = radius * min(size) / UNITS + 0.5 * em
     left = min(max(0.0, x + gap), size[0] - width)
     bottom = y + gap if y + gap + height < size[1] else y - gap - height
     painter.labels.box(left, bottom, width, height, size, GROUND)

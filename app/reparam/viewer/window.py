@@ -177,7 +177,7 @@ class Viewer:
         """The handles, while somebody is there to drag them."""
         hand, display = self._mouse.hand, self.state.subject.display
         if self._mouse.inside or hand.held or display.net:
-            draw_handles(self._painter, hand, size)
+            draw_handles(self._painter, hand, size, display.net)
         if (grip := hand.chosen if hand.held else hand.over) is not None:
             panel = hand.panel(grip.space)
             if hand.snapping and panel is not None:

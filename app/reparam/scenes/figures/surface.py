@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal
 
 import numpy as np
 
-from ...geometry.body import Body
+from ...geometry.body import Body, with_points
 from ...geometry.evaluate import sample_surface
 from .. import palette
 from ..attachments import Checks, Filter, Image, Wrap, attachment
-from ..layers import Array, ControlNet, Figure, IsoLines, Patches, Space, Texture
+from ..layers import Array, ControlNet, Figure, Handles, IsoLines, Patches, Space, Texture
+from ..parameters import Points
 from ..registry import scene
+from ..remember import remember
+
+NONE = np.zeros((0, 6))
+Moved = Annotated[Array, Points((None, 6), "control points moved: patch, row, column, x, y, z")]
 
 
 @scene("a surface from a file", opens_files=True)
@@ -24,17 +30,18 @@ def surface(
     image: Image = "",
     wrap: Wrap = "mirror",
     filter: Filter = "smooth",
+    moved: Moved = NONE,
 ) -> Figure:
-    points = sample_surface(body.nets)
-    spatial = bool(np.any(body.nets[..., 2] != 0.0))
-    texture_net = body.nets if texture == "r" else identity(body)
-    outline = min(1.2, 30.0 / len(body.nets) ** 0.5)  # many patches would be outlines alone
+    nets = edited(body, moved)
+    points = sampled(nets)
+    spatial = bool(np.any(nets[..., 2] != 0.0))
+    texture_net = nets if texture == "r" else identity(body)
+    outline = min(1.2, 30.0 / len(nets) ** 0.5)  # many patches would be outlines alone
     layers = (
-        Patches(
-            body.nets, Texture(texture_net, attachment(checks, image, wrap, filter)), lit=spatial
-        ),
-        IsoLines(body.nets, u=(0.0, 1.0), v=(0.0, 1.0), color=palette.INK, width=outline),
-        ControlNet(body.nets, palette.CONTROL_NET),
+        Patches(nets, Texture(texture_net, attachment(checks, image, wrap, filter)), lit=spatial),
+        IsoLines(nets, u=(0.0, 1.0), v=(0.0, 1.0), color=palette.INK, width=outline),
+        ControlNet(nets, palette.CONTROL_NET),
+        handles(nets),
     )
     caption = {
         "identity": "attached by the identity of each patch, (s, t) = (2v − 1, 1 − 2u)",
@@ -43,6 +50,33 @@ def surface(
     return Figure((Space("physical", points, layers, spatial),), (caption[texture],))
 
 
+@remember
+def edited(body: Body, moved: Array) -> Array:
+    """The body's nets with points moved; the body's own array where none is."""
+    return with_points(body.nets, moved) if len(moved) else body.nets
+
+
+sampled = remember(sample_surface)
+
+
+@remember
+def handles(nets: Array) -> Handles:
+    """A handle at each control point that has a weight; points at one place go together."""
+    flat = nets.reshape(-1, 4)
+    (indices,) = np.nonzero(flat[:, 3] > 0.0)
+    at = flat[indices, :3] / flat[indices, 3:]
+
+    def drag(values: Mapping[str, Any], index: int, point: Array) -> Mapping[str, Any]:
+        together = indices[(at == at[index]).all(-1)]
+        places = np.stack(np.unravel_index(together, nets.shape[:-1]), -1)
+        rows = {tuple(row[:3]): row for row in values["moved"]}
+        rows |= {tuple(place): np.array([*place, *point]) for place in places.astype(float)}
+        return {"moved": np.array([*rows.values()])}
+
+    return Handles(at, drag, radius=min(4.0, 32.0 / len(at) ** 0.5), quiet=True)
+
+
+@remember
 def identity(body: Body) -> Array:
     """(s,t) = (2v-1, 1-2u) as bilinear nets (patches, 2, 2, 4), from each patch's own (u,v)."""
     u, v = body.domains[..., 0], body.domains[..., 1]
