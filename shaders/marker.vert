@@ -1,4 +1,4 @@
-// Marks of a fixed size in pixels at points of the model: discs, and arrow heads that point
+// Arrow heads of a fixed size in pixels at points of the model, that point
 // away from `tail`.
 //
 //        side

@@ -1,55 +1,55 @@
-// Thick lines: one instance a segment, a strip of two triangles as wide as the line and a little
-// more, in pixels.  Neighbouring segments share the miter at their common point:
+// Thick lines with round joins and caps: one instance a segment, a rectangle of two triangles
+// around all pixels that the segment's capsule may touch:
 //
-//        before      start              end       after
-//           o---------o------------------o---------o
-//                     |##################|
-//                     miter          miter
+//       +---------------------------+
+//       |  .--------------------.   |
+//       | (  start ------- end   )  |      stroke.frag says which pixels it owns, and how much
+//       |  '--------------------'   |      of them the line covers
+//       +---------------------------+
 //
-// Where no segment joins, or the line turns by more than a right angle, it ends in a square cap.
 // Core profile draws no lines wider than a pixel.
 
-uniform mat4 clip_from_model;
-uniform vec2 viewport;      // pixels
+#include "lib/polyline.glsl"
+
+uniform vec4 region;        // left, bottom, width, height of the viewport, in pixels
 uniform float half_width;   // pixels
 uniform float depth_bias;   // towards the eye, in normalised depth
 
 in vec2 corner;             // (0 start .. 1 end, -1 right .. +1 left)
-in vec4 before, start, end, after;
-in float joins_before, drawn, joins_after;   // 1 or 0
+in vec2 reach;              // segments back and ahead
 
-out float across;           // pixels from the line's middle
+flat out int segment;
+flat out ivec2 window;
 
-const float FEATHER = 1.0;
+const float MARGIN = 1.5;   // a pixel's diagonal, and a little
 
-vec2 pixel(vec4 clip) {
-    return clip.xy / clip.w * 0.5 * viewport;
+// How far beyond its end, in half widths, a segment may be the nearest: all of the cap, or where
+// the line runs on in direction `beyond` the wedge between the two.
+float overhang(vec2 along, vec2 beyond) {
+    float reach = length(beyond);
+    float cosine = dot(along, beyond) / max(reach, 1e-20);
+    return reach > 1e-3 && cosine > 0.0 ? sqrt(max(1.0 - cosine * cosine, 0.0)) : 1.0;
 }
 
 void main() {
-    vec4 clip_start = clip_from_model * start, clip_end = clip_from_model * end;
-    vec2 a = pixel(clip_start), b = pixel(clip_end);
-    float span = length(b - a);
-    if (drawn == 0.0 || !(span > 1e-4)) {
+    segment = gl_InstanceID;
+    window = ivec2(reach + 0.5);
+    vec4 end = line_point(segment), start = line_point(max(segment - 1, 0));
+    if (!(end.w > 0.5)) {
         gl_Position = vec4(0.0, 0.0, 2.0, 1.0);   // clipped
-        across = 0.0;
         return;
     }
-    vec2 along = (b - a) / span;
+    vec2 way = end.xy - start.xy;
+    float span = length(way);
+    vec2 along = span > 0.0 ? way / span : vec2(1.0, 0.0);
     vec2 left = vec2(-along.y, along.x);
     bool at_end = corner.x > 0.5;
-    vec2 beyond = at_end ? pixel(clip_from_model * after) - b : a - pixel(clip_from_model * before);
-    float reach = length(beyond);
-    bool joined = (at_end ? joins_after : joins_before) > 0.0 && reach > 1e-4;
-    vec2 at = at_end ? b : a;
-    vec2 side = left;
-    if (joined && dot(along, beyond) > 0.0) {
-        vec2 tangent = normalize(along + beyond / reach);
-        side = vec2(-tangent.y, tangent.x) / dot(tangent, along);
-    } else {
-        at += along * (at_end ? half_width : -half_width);
-    }
-    across = corner.y * (half_width + FEATHER);
-    vec4 clip = at_end ? clip_end : clip_start;
-    gl_Position = vec4((at + side * across) / (0.5 * viewport), clip.z / clip.w - depth_bias, 1.0);
+    vec4 place = at_end ? end : start;
+    int next = at_end ? segment_after(segment, end) : segment_before(segment - 1, start);
+    float beyond = 1.0;
+    if (next >= 0)
+        beyond = overhang(along, line_point(next).xy - line_point(next - 1).xy);
+    vec2 pixel = place.xy + left * corner.y * (half_width + MARGIN)
+        + along * (corner.x * 2.0 - 1.0) * (half_width * beyond + MARGIN);
+    gl_Position = vec4((pixel - region.xy) / region.zw * 2.0 - 1.0, place.z - depth_bias, 1.0);
 }

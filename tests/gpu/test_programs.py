@@ -42,11 +42,12 @@ VARIANTS: list[tuple[tuple[str, ...], dict[str, int]]] = [
     (("evaluate.vert",), degree_defines(**{"": (9, 1)})),
     (("evaluate.vert",), degree_defines(**{"": (1, 31)}) | {"NORMALS": 1}),
     (("stroke.vert", "stroke.frag"), {}),
+    (("flatten.vert",), {}),
+    (("reach.vert",), {}),
     (("marker.vert", "marker.frag"), {}),
-    (("marker.vert", "marker.frag"), {"ARROW": 1}),
     (("label.vert", "label.frag"), {}),
 ]
-MARKED = (("marker.vert", "marker.frag"), {"ARROW": 1})
+MARKED: tuple[tuple[str, ...], dict[str, int]] = (("marker.vert", "marker.frag"), {})
 
 
 @pytest.fixture
@@ -185,9 +186,10 @@ def test_a_reload_refuses_a_uniform_that_nothing_sets(studio: Studio, tree: Path
 
 def test_programs_are_compiled_once(studio: Studio) -> None:
     programs = Programs(studio.ctx)
-    one = programs.get(*MARKED[0], defines=MARKED[1])
-    assert programs.get(*MARKED[0], defines=MARKED[1]) is one
-    assert programs.get(*MARKED[0]) is not one
+    assert programs.get(*MARKED[0]) is programs.get(*MARKED[0])
+    assert programs.get("mesh.vert", "patch.frag") is not programs.get(
+        "mesh.vert", "patch.frag", defines={"LIT": 1}
+    )
 
 
 def test_uniforms(studio: Studio) -> None:

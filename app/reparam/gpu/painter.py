@@ -17,7 +17,19 @@ from ..geometry.camera import Camera, View, frame
 from ..geometry.evaluate import project
 from ..scenes import palette
 from ..scenes.display import Display
-from ..scenes.layers import ControlNet, Figure, Handles, IsoLines, Label, Layer, Patches, Space
+from ..scenes.layers import (
+    ControlNet,
+    Curves,
+    Dots,
+    Figure,
+    Handles,
+    IsoLines,
+    Label,
+    Layer,
+    Patches,
+    Polylines,
+    Space,
+)
 from .context import Capabilities, capabilities
 from .evaluation import Evaluation
 from .programs import Programs
@@ -200,8 +212,7 @@ class Painter:
         self.ctx.disable(moderngl.DEPTH_TEST)
         for layer in panel.space.layers:
             if isinstance(layer, Handles) and display.handles:
-                viewport = (region.width, region.height)
-                self.strokes.draw_handles(layer, panel.camera, viewport, unit)
+                self.strokes.draw_handles(layer, panel.camera, unit)
         self.ctx.scissor = None
         self.ctx.viewport = (0, 0, *target.size)
         for layer in panel.space.layers:
@@ -211,7 +222,7 @@ class Painter:
     def _draw_layer(
         self, layer: Layer, panel: Panel, display: Display, evaluator: str, unit: float
     ) -> None:
-        camera, viewport = panel.camera, (panel.region.width, panel.region.height)
+        camera = panel.camera
         match layer:
             case Patches():
                 self.surfaces.draw(layer, camera, evaluator, display.level)
@@ -220,10 +231,10 @@ class Painter:
                     self.surfaces.draw_wireframe(
                         layer, nearer, evaluator, display.level, palette.INK
                     )
-            case IsoLines():
-                self.strokes.draw_iso_lines(layer, camera, viewport, unit)
+            case IsoLines() | Curves() | Polylines() | Dots():
+                self.strokes.draw(layer, camera, unit)
             case ControlNet() if display.net:
-                self.strokes.draw_control_net(layer, camera, viewport, unit)
+                self.strokes.draw(layer, camera, unit)
 
     def _draw_label(self, label: Label, panel: Panel, size: tuple[int, int], unit: float) -> None:
         region = panel.region

@@ -1,146 +1,290 @@
-"""Thick lines, dots and arrow heads, as wide as asked at any size (stroke.*, marker.*)."""
+"""Thick lines, dots and arrow heads, as wide as asked at any size (stroke.*, marker.*).
+
+A line goes its way in three steps, each kept for as long as it stays true: points in the model,
+evaluated or uploaded; points on the pixels (flatten.vert), for each view; which segments may share
+pixels (reach.vert), for each view and width. Then it is drawn (stroke.*).
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass
-from functools import lru_cache
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.camera import Camera
-from ..scenes.layers import Color, ControlNet, Handles, IsoLines
+from ..scenes.layers import Color, ControlNet, Curves, Dots, Handles, IsoLines, Polylines
 from .evaluation import Evaluation, patch_count
 from .kept import Kept
-from .programs import Program, Programs
+from .nets import NET_WIDTH
+from .polylines import (
+    arrow_parameters,
+    bend,
+    curve_links,
+    curve_parameters,
+    joined,
+    line_parameters,
+    net_legs,
+    segments_needed,
+)
+from .programs import Programs
 
 Array = NDArray[np.float64]
+StrokeLayer = IsoLines | Curves | Polylines | Dots | ControlNet
 
-CURVE_SEGMENTS = 64
 DEPTH_BIAS = 2e-3  # lines that lie on a surface come before it
 HANDLE_RINGS = ((1.5, (0.13, 0.13, 0.13)), (0.8, (1.0, 1.0, 1.0)))  # seen on any ground
 ARROW_SIZE = 4.5  # figure units from the middle of the head to its tip
+TEXEL = 16  # bytes of a point
 
 
 @dataclass(frozen=True)
-class Polylines:
-    """Points of polylines, one after another, on the GPU.
-
-    `points` holds (count, 4) float32; `pens` is 1 where a segment comes from the point before.
-    The first and the last point are padding, so that every segment has two neighbours.
-    """
+class Lines:
+    """Points and links of polylines on the GPU, as gpu/polylines.py has them."""
 
     points: moderngl.Buffer
-    pens: moderngl.Buffer
+    links: moderngl.Buffer
     count: int
+
+    def release(self) -> None:
+        """Give the memory back."""
+        self.points.release()
+        self.links.release()
+
+
+@dataclass(frozen=True)
+class Screen:
+    """A camera, the viewport (left, bottom, width, height), and the pixels of a figure unit."""
+
+    camera: Camera
+    region: tuple[int, int, int, int]
+    unit: float
+
+    def key(self) -> Hashable:
+        """What the points on the pixels depend on."""
+        return self.camera.clip_from_model().tobytes(), self.region
+
+    def pixels(self) -> float:
+        """Pixels of a model unit."""
+        return self.region[2] / (2.0 * self.camera.half_width)
 
 
 class Strokes:
-    """Draws IsoLines, ControlNet and Handles layers into the current framebuffer."""
+    """Draws the layers that are made of lines and dots into the current framebuffer."""
 
     def __init__(self, ctx: moderngl.Context, programs: Programs, evaluation: Evaluation) -> None:
         self._ctx = ctx
         self._programs = programs
         self._evaluation = evaluation
-        self._lines: Kept[Polylines] = Kept(_release)
-        self._segment = ctx.buffer(np.array([0, -1, 0, 1, 1, -1, 1, 1], np.float32).tobytes())
+        self._lines: Kept[Lines] = Kept(lambda lines: lines.release())
+        self._flat: Kept[moderngl.Texture] = Kept(lambda texture: texture.release())
+        self._reach: Kept[moderngl.Buffer] = Kept(lambda buffer: buffer.release())
+        self._bend: Kept[float] = Kept(lambda _: None)
+        self._rectangle = ctx.buffer(np.array([0, -1, 0, 1, 1, -1, 1, 1], np.float32).tobytes())
         self._square = ctx.buffer(np.array([-1, -1, -1, 1, 1, -1, 1, 1], np.float32).tobytes())
 
     def sweep(self) -> None:
         """End of a frame."""
         self._lines.sweep()
+        self._flat.sweep()
+        self._reach.sweep()
+        self._bend.sweep()
 
     def forget(self) -> None:
         """Drop what older shaders evaluated."""
         self._lines.clear()
+        self._flat.clear()
+        self._reach.clear()
 
-    def draw_iso_lines(
-        self, layer: IsoLines, camera: Camera, viewport: tuple[int, int], unit: float
+    def draw(self, layer: StrokeLayer, camera: Camera, unit: float) -> None:
+        """A layer into the current viewport; a figure unit is `unit` pixels."""
+        screen = Screen(camera, self._ctx.viewport, unit)
+        match layer:
+            case IsoLines():
+                self._draw_iso_lines(layer, screen)
+            case Curves():
+                self._draw_curves(layer, screen)
+            case Polylines():
+                self._draw_polylines(layer, screen)
+            case Dots():
+                self._draw_dots(layer.at, screen, layer.color, layer.radius)
+            case ControlNet():
+                self._draw_control_net(layer, screen)
+
+    def draw_handles(
+        self, layer: Handles, camera: Camera, unit: float, only: int | None = None
     ) -> None:
+        """A ringed disc for each point, or for point `only` alone, into the current viewport."""
+        screen = Screen(camera, self._ctx.viewport, unit)
+        at = layer.at if only is None else layer.at[only : only + 1]
+        for ring, color in (*HANDLE_RINGS, (0.0, layer.color)):
+            self._draw_dots(at, screen, color, layer.radius + ring)
+
+    # Layers ---------------------------------------------------------------------------------
+
+    def _draw_iso_lines(self, layer: IsoLines, screen: Screen) -> None:
         """The curves, evaluated on the GPU by the evaluator that draws the patches."""
-        key = (layer.u, layer.v, layer.span)
-        lines = self._lines.get(layer.net, key, lambda: self._evaluate(layer))
-        self._stroke(lines, camera, viewport, layer.color, layer.width * unit / 2.0)
+        bends = [self._bend_of(layer.net, -2)] * bool(layer.u)
+        bends += [self._bend_of(layer.net, -3)] * bool(layer.v)
+        segments = segments_needed(max(bends, default=0.0), layer.span, screen.pixels())
+
+        def evaluate() -> Lines:
+            parameters, links = line_parameters(layer.u, layer.v, layer.span, segments)
+            return self._evaluate(layer.net, parameters, np.tile(links, patch_count(layer.net)))
+
+        key = (layer.u, layer.v, layer.span, segments)
+        self._stroke(layer.net, key, evaluate, screen, layer.color, layer.width)
         if layer.arrow:
             ends = arrow_parameters(layer.u, layer.v, layer.span)
             tips = self._evaluation.read(layer.net, ends).reshape(-1, 2, 4)
-            self._mark(
-                tips[:, 1], tips[:, 0], camera, viewport, layer.color, ARROW_SIZE * unit, ARROW=1
+            self._draw_arrows(tips[:, 1], tips[:, 0], screen, layer.color)
+
+    def _draw_curves(self, layer: Curves, screen: Screen) -> None:
+        segments = segments_needed(self._bend_of(layer.net, -2), layer.span, screen.pixels())
+        nets = layer.net.reshape(-1, layer.net.shape[-2], 1, 4)
+
+        def evaluate() -> Lines:
+            links = (
+                curve_links(nets[:, :, 0], segments + 1)
+                if layer.span == (0.0, 1.0)
+                else joined(np.zeros((len(nets), segments + 1, 3)))[1]
             )
+            return self._evaluate(nets, curve_parameters(layer.span, segments), links)
 
-    def draw_control_net(
-        self, layer: ControlNet, camera: Camera, viewport: tuple[int, int], unit: float
-    ) -> None:
-        """Dots at the control points, lines along the legs."""
-        lines = self._lines.get(layer.net, "net", lambda: self._upload(*net_legs(layer.net)))
-        self._stroke(lines, camera, viewport, layer.color, layer.width * unit / 2.0)
-        points = layer.net.reshape(-1, 4)
-        dots = points[points[:, 3] > 0.0].astype(np.float32)
-        self._mark(dots, dots, camera, viewport, layer.color, layer.dot * unit)
+        key = (layer.span, segments)
+        self._stroke(layer.net, key, evaluate, screen, layer.color, layer.width)
+        if layer.arrow:
+            ends = arrow_parameters((), (0.0,), layer.span)
+            tips = self._evaluation.read(nets, ends).reshape(-1, 2, 4)
+            self._draw_arrows(tips[:, 1], tips[:, 0], screen, layer.color)
 
-    def draw_handles(
-        self,
-        layer: Handles,
-        camera: Camera,
-        viewport: tuple[int, int],
-        unit: float,
-        only: int | None = None,
-    ) -> None:
-        """A ringed disc for each point, or for point `only` alone."""
-        at = layer.at if only is None else layer.at[only : only + 1]
-        points = np.concatenate([at, np.ones((len(at), 1))], -1).astype(np.float32)
-        for ring, color in (*HANDLE_RINGS, (0.0, layer.color)):
-            size = (layer.radius + ring) * unit
-            self._mark(points, points, camera, viewport, color, size)
+    def _draw_polylines(self, layer: Polylines, screen: Screen) -> None:
+        def upload() -> Lines:
+            return self._upload(*joined(layer.points, layer.closed))
 
-    def _evaluate(self, layer: IsoLines) -> Polylines:
-        parameters, pens = line_parameters(layer.u, layer.v, layer.span)
-        patches = patch_count(layer.net)
-        points = self._evaluation.run(layer.net, parameters, range(patches))
-        pen_buffer = self._ctx.buffer(np.tile(pens, patches).astype(np.float32).tobytes())
-        return Polylines(points, pen_buffer, len(pens) * patches)
+        self._stroke(layer.points, layer.closed, upload, screen, layer.color, layer.width)
+        if layer.arrow:
+            ends = layer.points.reshape(-1, *layer.points.shape[-2:])[:, -2:].astype(np.float32)
+            tips = np.concatenate([ends, np.ones((len(ends), 2, 1), np.float32)], -1)
+            self._draw_arrows(tips[:, 1], tips[:, 0], screen, layer.color)
 
-    def _upload(self, points: Array, pens: Array) -> Polylines:
-        return Polylines(
+    def _draw_dots(self, at: Array, screen: Screen, color: Color, radius: float) -> None:
+        """A dot is a line without length."""
+
+        def upload() -> Lines:
+            return self._upload(*joined(np.repeat(at.reshape(-1, 1, 3), 2, 1)))
+
+        self._stroke(at, "dots", upload, screen, color, 2.0 * radius)
+
+    def _draw_control_net(self, layer: ControlNet, screen: Screen) -> None:
+        """Lines along the legs, dots at the control points."""
+
+        def upload() -> Lines:
+            return self._upload(*net_legs(layer.net))
+
+        def upload_dots() -> Lines:
+            points = layer.net.reshape(-1, 4)
+            dots = np.repeat(points[points[:, 3] > 0.0], 2, 0)
+            return self._upload(dots, np.tile([0.0, 1.0], len(dots) // 2))
+
+        self._stroke(layer.net, "legs", upload, screen, layer.color, layer.width)
+        self._stroke(layer.net, "points", upload_dots, screen, layer.color, 2.0 * layer.dot)
+
+    def _bend_of(self, net: Array, axis: int) -> float:
+        return self._bend.get(net, axis, lambda: bend(net, axis))
+
+    # Lines ----------------------------------------------------------------------------------
+
+    def _evaluate(self, nets: Array, parameters: Array, links: Array) -> Lines:
+        points = self._evaluation.run(nets, parameters, range(patch_count(nets)))
+        return Lines(points, self._ctx.buffer(links.astype(np.float32).tobytes()), len(links))
+
+    def _upload(self, points: Array, links: Array) -> Lines:
+        return Lines(
             self._ctx.buffer(points.astype(np.float32).tobytes()),
-            self._ctx.buffer(pens.astype(np.float32).tobytes()),
-            len(pens),
+            self._ctx.buffer(links.astype(np.float32).tobytes()),
+            len(links),
         )
 
     def _stroke(
         self,
-        lines: Polylines,
-        camera: Camera,
-        viewport: tuple[int, int],
+        array: Array,
+        key: Hashable,
+        make: Callable[[], Lines],
+        screen: Screen,
         color: Color,
-        half_width: float,
+        width: float,
     ) -> None:
+        """The lines that `make` makes of the array, as wide as `width` figure units."""
+        half_width = width * screen.unit / 2.0
+        lines = self._lines.get(array, key, make)
+        flat_key = (key, screen.key())
+        flat = self._flat.get(array, flat_key, lambda: self._flatten(lines, screen))
+        flat.use(0)
+        reach = self._reach.get(
+            array, (flat_key, half_width), lambda: self._reaches(lines, half_width)
+        )
         program = self._programs.get("stroke.vert", "stroke.frag")
-        self._set_common(program, camera, viewport, color)
-        program.set(half_width=half_width)
-        gl = program.ready()
-        vertices = self._ctx.vertex_array(gl, [(self._segment, "2f", "corner")])
-        for i, name in enumerate(("before", "start", "end", "after")):
-            _bind_instanced(vertices, gl, name, lines.points, "4f", 16 * i, 16)
-        for i, name in enumerate(("joins_before", "drawn", "joins_after"), start=1):
-            _bind_instanced(vertices, gl, name, lines.pens, "1f", 4 * i, 4)
-        vertices.render(moderngl.TRIANGLE_STRIP, vertices=4, instances=lines.count - 3)
+        program.set(
+            line=0,
+            line_points=lines.count,
+            region=screen.region,
+            half_width=half_width,
+            depth_bias=DEPTH_BIAS,
+            color=(*color, 1.0),
+        )
+        vertices = self._ctx.vertex_array(
+            program.ready(), [(self._rectangle, "2f", "corner"), (reach, "2f /i", "reach")]
+        )
+        vertices.render(moderngl.TRIANGLE_STRIP, vertices=4, instances=lines.count)
         vertices.release()
 
-    def _mark(
+    def _flatten(self, lines: Lines, screen: Screen) -> moderngl.Texture:
+        """The points on the pixels, as a texture."""
+        program = self._programs.get("flatten.vert", varyings=("place",))
+        program.set(clip_from_model=clip_bytes(screen.camera), region=screen.region)
+        width = min(lines.count, NET_WIDTH)
+        height = -(-lines.count // width)
+        captured = self._ctx.buffer(reserve=width * height * TEXEL)
+        vertices = self._ctx.vertex_array(
+            program.ready(), [(lines.points, "4f", "point"), (lines.links, "1f", "link")]
+        )
+        vertices.transform(captured, moderngl.POINTS, lines.count)
+        vertices.release()
+        texture = self._ctx.texture((width, height), 4, dtype="f4")
+        texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        texture.write(captured)
+        captured.release()
+        return texture
+
+    def _reaches(self, lines: Lines, half_width: float) -> moderngl.Buffer:
+        """How far each segment must look; the flattened lines are bound."""
+        program = self._programs.get("reach.vert", varyings=("reach",))
+        program.set(line=0, line_points=lines.count, half_width=half_width)
+        captured = self._ctx.buffer(reserve=lines.count * 8)
+        vertices = self._ctx.vertex_array(program.ready(), [(lines.links, "1f", "link")])
+        vertices.transform(captured, moderngl.POINTS, lines.count)
+        vertices.release()
+        return captured
+
+    def _draw_arrows(
         self,
         at: NDArray[np.float32],
         tail: NDArray[np.float32],
-        camera: Camera,
-        viewport: tuple[int, int],
+        screen: Screen,
         color: Color,
-        size: float,
-        **defines: int,
     ) -> None:
-        program = self._programs.get("marker.vert", "marker.frag", defines=defines)
-        self._set_common(program, camera, viewport, color)
-        program.set(size=size)
+        program = self._programs.get("marker.vert", "marker.frag")
+        _, _, width, height = screen.region
+        program.set(
+            clip_from_model=clip_bytes(screen.camera),
+            viewport=(width, height),
+            depth_bias=DEPTH_BIAS,
+            color=(*color, 1.0),
+            size=ARROW_SIZE * screen.unit,
+        )
         marks = self._ctx.buffer(np.concatenate([at, tail], -1).tobytes())
         vertices = self._ctx.vertex_array(
             program.ready(),
@@ -150,84 +294,7 @@ class Strokes:
         vertices.release()
         marks.release()
 
-    def _set_common(
-        self, program: Program, camera: Camera, viewport: tuple[int, int], color: Color
-    ) -> None:
-        program.set(
-            clip_from_model=camera.clip_from_model().T.astype(np.float32).tobytes(),
-            viewport=viewport,
-            depth_bias=DEPTH_BIAS,
-            color=(*color, 1.0),
-        )
 
-
-def _bind_instanced(
-    vertices: moderngl.VertexArray,
-    program: moderngl.Program,
-    name: str,
-    buffer: moderngl.Buffer,
-    format: str,
-    offset: int,
-    stride: int,
-) -> None:
-    """One attribute an instance, at its own offset: neighbours read the same buffer."""
-    location = program[name].location  # type: ignore[union-attr]
-    vertices.bind(location, "f", buffer, format, offset=offset, stride=stride, divisor=1)
-
-
-def _release(lines: Polylines) -> None:
-    lines.points.release()
-    lines.pens.release()
-
-
-Values = tuple[float, ...]
-
-
-@lru_cache(maxsize=256)
-def line_parameters(u: Values, v: Values, span: tuple[float, float]) -> tuple[Array, Array]:
-    """(u, 1-u, v, 1-v) along the curves u = const and v = const of one patch, and their pens.
-
-    The same object for the same curves: it is uploaded once.
-    """
-    t = np.linspace(*span, CURVE_SEGMENTS + 1)
-    parameters = _with_complements(_padded(_along(u, v, t)))
-    return parameters, _pens([len(t)] * (len(u) + len(v)))
-
-
-@lru_cache(maxsize=256)
-def arrow_parameters(u: Values, v: Values, span: tuple[float, float]) -> Array:
-    """Parameters of the last two points of each curve."""
-    return _with_complements(_along(u, v, np.array([span[1] - 1e-3, span[1]])))
-
-
-def _along(u: Values, v: Values, t: Array) -> Array:
-    """(u, v) of the points t of each curve, one curve after another."""
-    curves = [np.stack([np.full_like(t, value), t], -1) for value in u]
-    curves += [np.stack([t, np.full_like(t, value)], -1) for value in v]
-    return np.concatenate(curves)
-
-
-def net_legs(net: Array) -> tuple[Array, Array]:
-    """The rows and columns of control nets as polylines; points without weight are left out."""
-    patches = net.reshape(-1, *net.shape[-3:])
-    rows = [row for patch in patches for row in patch]
-    columns = [column for patch in patches for column in patch.swapaxes(0, 1)]
-    lines = [line[line[:, 3] > 0.0] for line in rows + columns]
-    return _padded(np.concatenate(lines)), _pens([len(line) for line in lines])
-
-
-def _padded(points: Array) -> Array:
-    return np.concatenate([points[:1], points, points[-1:]])
-
-
-def _pens(lengths: list[int]) -> Array:
-    pens = np.ones(sum(lengths) + 2)
-    starts = np.cumsum([0, *lengths])[:-1]
-    pens[starts + 1] = 0.0
-    pens[[0, -1]] = 0.0
-    return pens
-
-
-def _with_complements(uv: Array) -> Array:
-    u, v = uv.T
-    return np.stack([u, 1.0 - u, v, 1.0 - v], -1)
+def clip_bytes(camera: Camera) -> bytes:
+    """The matrix as OpenGL takes it."""
+    return camera.clip_from_model().T.astype(np.float32).tobytes()

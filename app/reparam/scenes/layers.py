@@ -18,6 +18,8 @@ from ..geometry.evaluate import sample_surface
 Array = NDArray[np.float64]
 Color = tuple[float, float, float]
 
+INK: Color = (0.13, 0.13, 0.13)
+
 
 def _freeze(layer: object) -> None:
     for field in fields(layer):  # type: ignore[arg-type]
@@ -82,6 +84,50 @@ class IsoLines:
 
 
 @dataclass(frozen=True)
+class Curves:
+    """Bezier curves of one order: a net (n, 4) or (curves, n, 4), homogeneous.
+
+    Curves that follow one another end to start are one line: they meet without a seam. An arrow
+    stands at the end of each.
+    """
+
+    net: Array
+    color: Color = INK
+    width: float = 1.6
+    span: tuple[float, float] = (0.0, 1.0)  # of the parameter; beyond [0,1] extrapolates
+    arrow: bool = False
+
+    def __post_init__(self) -> None:
+        _freeze(self)
+
+
+@dataclass(frozen=True)
+class Polylines:
+    """Points (k, 3) or (lines, k, 3) joined by straight strokes, with round joins and caps."""
+
+    points: Array
+    color: Color = INK
+    width: float = 1.0
+    closed: bool = False
+    arrow: bool = False
+
+    def __post_init__(self) -> None:
+        _freeze(self)
+
+
+@dataclass(frozen=True)
+class Dots:
+    """Discs at points (k, 3)."""
+
+    at: Array
+    color: Color = INK
+    radius: float = 3.0
+
+    def __post_init__(self) -> None:
+        _freeze(self)
+
+
+@dataclass(frozen=True)
 class ControlNet:
     """The control points of patches and the legs between them; drawn when the user asks."""
 
@@ -103,7 +149,7 @@ class Label:
     offset: tuple[float, float] = (0.0, 0.0)
     anchor: tuple[float, float] = (0.5, 0.5)  # the point of the text's box put there: 0..1, y up
     size: float = 16.0
-    color: Color = (0.13, 0.13, 0.13)
+    color: Color = INK
     italic: bool = False
 
 
@@ -134,7 +180,7 @@ class Handles:
         return self.names[index] if self.names else f"point {index + 1}"
 
 
-Layer = Patches | IsoLines | ControlNet | Label | Handles
+Layer = Patches | IsoLines | Curves | Polylines | Dots | ControlNet | Label | Handles
 
 
 @dataclass(frozen=True)
@@ -161,9 +207,16 @@ class Figure:
     caption: tuple[str, ...] = ()
 
     def plain(self) -> Figure:
-        """The subject's patches alone, framed by themselves: no labels, nets, lines or caption."""
+        """The subject's patches alone, framed by themselves: no labels, nets, lines or caption.
+
+        A subject without patches keeps its curves, polylines and dots, and its bounds.
+        """
         subject = self.spaces[-1]
         patches = tuple(layer for layer in subject.layers if isinstance(layer, Patches))
+        if not patches:
+            lines = (Curves, Polylines, Dots)
+            kept = tuple(layer for layer in subject.layers if isinstance(layer, lines))
+            return Figure((replace(subject, layers=kept),))
         points = np.concatenate([sample_surface(layer.net) for layer in patches])
         return Figure((replace(subject, layers=patches, bounds=points),))
 

@@ -78,8 +78,7 @@ def _in_panel(
     region = panel.region
     box = (region.left, region.bottom, region.width, region.height)
     painter.ctx.viewport = painter.ctx.scissor = box
-    viewport = (region.width, region.height)
-    painter.strokes.draw_handles(layer, panel.camera, viewport, min(size) / UNITS, only)
+    painter.strokes.draw_handles(layer, panel.camera, min(size) / UNITS, only)
     painter.ctx.scissor = None
     painter.ctx.viewport = (0, 0, *size)
 

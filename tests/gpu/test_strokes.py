@@ -1,0 +1,144 @@
+"""Thick lines against a truth of 16 x 16 points a pixel: joins, caps and cusps included."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from math import pi
+
+import moderngl
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from reparam.geometry.camera import Camera
+from reparam.geometry.curve import circular_arc, curve_net, curve_points
+from reparam.gpu.polylines import curve_links, joined, segments_needed
+from reparam.gpu.strokes import StrokeLayer
+from reparam.gpu.targets import Target
+from reparam.scenes.layers import Curves, Dots, Polylines
+from reparam.snapshot import Studio
+
+Array = NDArray[np.float64]
+
+SIDE, POINTS = 96, 16
+BLACK = (0.0, 0.0, 0.0)
+
+
+def coverage(studio: Studio, *layers: StrokeLayer, samples: int = 4) -> Array:
+    """How much of each pixel black layers cover, bottom row first; model units are pixels."""
+    target = Target(studio.ctx, (SIDE, SIDE), samples, studio.painter.capabilities)
+    camera = Camera(np.eye(3), np.array([SIDE / 2, SIDE / 2, 0.0]), SIDE / 2, SIDE / 2, 100.0)
+    target.framebuffer.use()
+    studio.ctx.viewport = (0, 0, SIDE, SIDE)
+    target.framebuffer.clear(1.0, 1.0, 1.0, 1.0, depth=1.0)
+    studio.ctx.enable_only(moderngl.BLEND)
+    studio.ctx.blend_func = (moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA)
+    for layer in layers:
+        studio.painter.strokes.draw(layer, camera, 1.0)
+    target.resolve()
+    picture = target.pixels()[::-1, :, 0]
+    studio.ctx.extra.use()
+    target.release()
+    return 1.0 - picture / 255.0
+
+
+def true_coverage(lines: Array, radius: float) -> Array:
+    """The share of each pixel's 16 x 16 points that lie within `radius` of polylines."""
+    at = (np.arange(SIDE * POINTS) + 0.5) / POINTS
+    inside = np.zeros((len(at), len(at)), bool)
+    for line in lines:
+        for a, b in zip(line[:-1, :2], line[1:, :2], strict=True):
+            low = np.floor((np.minimum(a, b) - radius) * POINTS).astype(int)
+            high = np.ceil((np.maximum(a, b) + radius) * POINTS).astype(int) + 1
+            columns, rows = slice(max(low[0], 0), high[0]), slice(max(low[1], 0), high[1])
+            x, y = at[columns] - a[0], at[rows, None] - a[1]
+            way = b - a
+            t = np.clip((x * way[0] + y * way[1]) / max(way @ way, 1e-30), 0.0, 1.0)
+            inside[rows, columns] |= (x - t * way[0]) ** 2 + (y - t * way[1]) ** 2 <= radius**2
+    return np.asarray(inside.reshape(SIDE, POINTS, SIDE, POINTS).mean((1, 3)))
+
+
+def compare(found: Array, truth: Array) -> None:
+    touched = (found > 0.0) | (truth > 0.0)
+    off = np.abs(found - truth)[touched] * 255.0
+    assert off.mean() < 1.0
+    assert off.max() <= 4.0
+
+
+SHAPES = {
+    "smooth": [[10, 18], [33, 91], [63, 4], [86, 78]],
+    "cusp": [[10, 18], [86, 78], [10, 78], [86, 18]],
+    "near a cusp": [[10, 18], [84, 78], [12, 78], [86, 18]],
+    "loop": [[10, 18], [108, 82], [-12, 82], [86, 18]],
+    "hairpin": [[10, 18], [140, 78.2], [10, 21]],
+    "straight": [[10, 18.3], [86, 60.7]],
+    "a pixel": [[48, 48], [49, 50], [48, 50], [49, 48]],
+    "a point": [[40.3, 50.6], [40.3, 50.6], [40.3, 50.6]],
+}
+
+
+@pytest.mark.parametrize("width", [0.8, 2.3, 9.0])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_curves(studio: Studio, shape: str, width: float) -> None:
+    net = curve_net(SHAPES[shape])
+    exact = curve_points(net, np.linspace(0.0, 1.0, 513))
+    compare(coverage(studio, Curves(net, BLACK, width)), true_coverage(exact[None], width / 2.0))
+
+
+def test_a_rational_curve_of_many_pieces_has_no_seams(studio: Studio) -> None:
+    corners = np.array([0.0, 1.3, 2.9, 4.4, 2.0 * pi])
+    arcs = np.stack([circular_arc(33.3, *pair) for pair in pairwise(corners)])
+    arcs[..., :2] += arcs[..., 3:] * (SIDE / 2)
+    angle = np.linspace(0.0, 2.0 * pi, 721)
+    exact = 33.3 * np.stack([np.cos(angle), np.sin(angle)], -1) + SIDE / 2
+    found = coverage(studio, Curves(arcs, BLACK, 3.0))
+    compare(found, true_coverage(exact[None], 1.5))
+
+
+@pytest.mark.parametrize("closed", [False, True])
+@pytest.mark.parametrize("samples", [1, 4])
+def test_sharp_turns(studio: Studio, closed: bool, samples: int) -> None:
+    star = [[20, 20], [80, 70], [15, 65], [75.5, 15], [50, 90], [50, 90]]
+    points = np.array([[*point, 0.0] for point in star], float)
+    line = np.concatenate([points, points[:1]]) if closed else points
+    found = coverage(studio, Polylines(points, BLACK, 6.0, closed), samples=samples)
+    compare(found, true_coverage(line[None], 3.0))
+
+
+def test_a_line_longer_than_the_window_closes(studio: Studio) -> None:
+    angle = np.linspace(0.0, 2.0 * pi, 701)[:-1]
+    points = np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], -1) * 37.7 + [48.2, 47.9, 0.0]
+    found = coverage(studio, Polylines(points, BLACK, 2.5, closed=True))
+    compare(found, true_coverage(np.concatenate([points, points[:1]])[None], 1.25))
+
+
+def test_dots(studio: Studio) -> None:
+    at = np.array([[12.2, 13.7, 0.0], [50.0, 50.5, 0.0], [83.9, 20.1, 0.0]])
+    for radius in (0.6, 2.0, 7.5):
+        compare(
+            coverage(studio, Dots(at, BLACK, radius)),
+            true_coverage(at[:, None].repeat(2, 1), radius),
+        )
+
+
+def test_several_lines_do_not_join(studio: Studio) -> None:
+    lines = np.array([[[10, 20, 0], [80, 20, 0]], [[80, 60, 0], [10, 75, 0]]], float)
+    compare(coverage(studio, Polylines(lines, BLACK, 4.0)), true_coverage(lines, 2.0))
+
+
+def test_links() -> None:
+    _, links = joined(np.zeros((2, 3, 3)))
+    assert links.tolist() == [0, 1, 1, 0, 1, 1]
+    points, links = joined(np.arange(9.0).reshape(3, 3), closed=True)
+    assert links.tolist() == [-3, 1, 1, 4]
+    assert points[0].tolist() == points[-1].tolist()
+    chain = curve_net([[[0, 0], [1, 0]], [[1, 0], [1, 1]], [[5, 5], [6, 6]]])
+    assert curve_links(chain, 3).tolist() == [0, 1, 1, 1, 1, 1, 0, 1, 1]
+    chain = curve_net([[[0, 0], [1, 0]], [[1, 0], [1, 1]], [[1, 1], [0, 0]]])
+    assert curve_links(chain, 2).tolist() == [-5, 1, 1, 1, 1, 6]
+
+
+def test_more_segments_where_more_is_seen() -> None:
+    assert segments_needed(0.0, (0.0, 1.0), 1e6) == 1
+    few, many = segments_needed(6.0, (0.0, 1.0), 10.0), segments_needed(6.0, (0.0, 1.0), 1000.0)
+    assert few < many == 512
