@@ -2,6 +2,7 @@
 # make test       style, types, then the quick tests
 # make test-slow  the tests that take minutes
 # make lint       style and types
+# make parity     our evaluators against what the real OpenGL and GLU computed; CASES=folder: others
 # make bench      our frames against others', as ratios in one run
 # make gallery    the README's pictures
 # make format     brings the code into style
@@ -21,7 +22,7 @@ endif
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: run test test-slow bench gallery lint format clean run-packages test-packages
+.PHONY: run test test-slow parity bench gallery lint format clean run-packages test-packages
 
 run: run-packages $(VENV)/run
 	@$(BIN)/reparam
@@ -36,6 +37,9 @@ lint: $(VENV)/test
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/mypy
+
+parity: run-packages $(VENV)/test
+	@$(BIN)/python tests/parity/parity.py $(CASES)
 
 bench: run-packages $(VENV)/test
 	$(BIN)/python tests/benchmarks/static_mesh.py

@@ -1,7 +1,8 @@
 // The tessellation evaluator, third stage: the surface and its maps at one point of the grid.
 // OpenGL 4.0.  The same evaluate() as evaluate.vert.
 //
-// With PROBE each grid point is drawn onto its own texel instead, for reading back.
+// With PROBE each grid point is drawn onto its own texel instead, for reading back; with LISTED
+// it is evaluated at parameters of the caller's, any list of them laid onto the grid.
 
 layout(quads, equal_spacing, ccw
 #ifdef PROBE
@@ -37,6 +38,10 @@ const ivec2 texture_degree = ivec2(TEXTURE_DEGREE_U, TEXTURE_DEGREE_V);
 #endif
 #endif
 #ifdef PROBE
+#ifdef LISTED
+uniform sampler2D parameter_list;   // packed like a net
+uniform int last_parameter;
+#endif
 uniform ivec2 probe_size;
 flat out vec4 probed_parameters;
 flat out vec4 probed_point;
@@ -46,7 +51,12 @@ flat out vec3 probed_normal;
 void main() {
     int patch_index = patch_of_surface[0];
     ivec2 step_index = tile.xy + ivec2(gl_TessCoord.xy * vec2(tile.zw) + 0.5);
+#ifdef LISTED
+    int number = step_index.x * (level + 1) + step_index.y;
+    vec4 uv = control_point(parameter_list, min(number, last_parameter));
+#else
     vec4 uv = grid_parameters(step_index, level);
+#endif
 #if defined(PROBE) || defined(LIT)
     vec4 point;
     vec3 normal = surface_normal(position_net, patch_index, position_degree, uv, point);

@@ -8,9 +8,10 @@ vec3 safe_normalize(vec3 v) {
     return largest > 0.0 ? normalize(v / largest) : vec3(0.0);
 }
 
-// The derivative of X/w by the quotient rule, but for the positive factor 1/w.
+// w times the derivative of X/w, by the quotient rule; none at infinity.
 vec3 projected_derivative(vec4 point, vec4 derivative) {
-    return derivative.xyz - derivative.w * (point.xyz / point.w);
+    vec3 affine = point.xyz / point.w;
+    return point.w != 0.0 ? derivative.xyz - derivative.w * affine : vec3(0.0);
 }
 
 float largest_component(vec3 v) {

@@ -37,6 +37,8 @@ VARIANTS: list[tuple[tuple[str, ...], dict[str, int]]] = [
     *(((*TESSELLATION, "patch.frag"), look | HIGH) for look in LOOKS),
     ((*TESSELLATION, "probe.frag"), {"PROBE": 1} | degree_defines(POSITION_=(0, 8))),
     ((*TESSELLATION, "probe.frag"), {"PROBE": 1} | degree_defines(POSITION_=(31, 1))),
+    ((*TESSELLATION, "probe.frag"), {"PROBE": 1, "LISTED": 1} | degree_defines(POSITION_=(2, 1))),
+    *((("recorded.vert", "recorded.frag"), look) for look in LOOKS[:4]),
     (("evaluate.vert",), degree_defines(**{"": (0, 0)})),
     (("evaluate.vert",), EVALUATE),
     (("evaluate.vert",), degree_defines(**{"": (9, 1)})),

@@ -23,10 +23,13 @@ def safe_normalize(vectors: Array) -> Array:
 
 
 def projected_derivative(points: Array, derivatives: Array) -> Array:
-    """w times the derivative of X/w by the quotient rule, from (..., 4) points and derivatives."""
-    return np.asarray(
-        derivatives[..., :3] - derivatives[..., 3:] * (points[..., :3] / points[..., 3:])
-    )
+    """w times the derivative of X/w by the quotient rule, from (..., 4) points and derivatives.
+
+    None, that is zero, at infinity (w = 0).
+    """
+    weights = points[..., 3:]
+    affine = points[..., :3] / np.where(weights != 0.0, weights, 1.0)
+    return np.where(weights != 0.0, derivatives[..., :3] - derivatives[..., 3:] * affine, 0.0)
 
 
 def cross_of_tangents(net: Array, u: ArrayLike, v: ArrayLike) -> Array:

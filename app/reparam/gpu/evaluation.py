@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .kept import Kept
-from .nets import net_texture
+from .nets import NET_UNIT, net_texture
 from .programs import Programs, degree_defines
 
 Array = NDArray[np.float64]
@@ -68,9 +68,9 @@ class Evaluation:
             varyings=("point", "normal") if normals else ("point",),
         )
         shared = patch_count(net) == 1
-        self.texture(net).use(0)
+        self.texture(net).use(NET_UNIT)
         program.set(
-            net=0,
+            net=NET_UNIT,
             degree=orders(net),
             first_patch=0 if shared else patches[0],
             patch_stride=0 if shared else 1,

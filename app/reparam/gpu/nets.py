@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from ..errors import GraphicsError
 
+NET_UNIT = 15  # a texture unit that every stage of every OpenGL 3.3 has, far from a user's own
 NET_WIDTH = 4096  # texels in a row; 2^26 control points fit where textures reach 16384
 
 

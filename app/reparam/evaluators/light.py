@@ -1,0 +1,28 @@
+"""What the built-in program shades by: one light and one material, with OpenGL's defaults."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+RGB = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Light:
+    """GL_LIGHT0 and glMaterial, by OpenGL's formula (2.1 specification, section 2.14.1), for each
+    fragment and on both sides.
+
+    `position` is in eye coordinates, a direction where its w is 0. With `color_material` the
+    vertex colours stand for `material_ambient` and `material_diffuse`.
+    """
+
+    position: tuple[float, float, float, float] = (0.0, 0.0, 1.0, 0.0)
+    ambient: RGB = (0.0, 0.0, 0.0)
+    diffuse: RGB = (1.0, 1.0, 1.0)
+    specular: RGB = (1.0, 1.0, 1.0)
+    model_ambient: RGB = (0.2, 0.2, 0.2)
+    material_ambient: RGB = (0.2, 0.2, 0.2)
+    material_diffuse: RGB = (0.8, 0.8, 0.8)
+    material_specular: RGB = (0.0, 0.0, 0.0)
+    shininess: float = 0.0
+    color_material: bool = False

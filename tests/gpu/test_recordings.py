@@ -1,0 +1,379 @@
+"""Recorded evaluator calls, read back and drawn; where the originals are wrong, ours are right.
+
+The numbers in brackets are those of Mesa 22.3 and are not wanted.
+"""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Iterator
+
+import moderngl
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from reparam import evaluators as ev
+from reparam.evaluators import (
+    GL_AUTO_NORMAL,
+    GL_FILL,
+    GL_LINE,
+    GL_MAP1_COLOR_4,
+    GL_MAP1_VERTEX_3,
+    GL_MAP1_VERTEX_4,
+    GL_MAP2_COLOR_4,
+    GL_MAP2_INDEX,
+    GL_MAP2_TEXTURE_COORD_2,
+    GL_MAP2_VERTEX_3,
+    GL_MAP2_VERTEX_4,
+    GL_POINT,
+    Evaluators,
+    InvalidOperation,
+    Light,
+    Recording,
+)
+from reparam.geometry.normal import surface_normal
+from reparam.geometry.planar_maps import R
+from reparam.snapshot import Studio
+
+RANDOM = np.random.default_rng(11)
+NET = RANDOM.uniform(-1, 1, (4, 3, 3))
+SQUARE = np.array([[(0, 0, 0), (0, 1, 0)], [(1, 0, 0), (1, 1, 0)]], float)
+PATHS = ["vertex", "tessellation"]
+SIZE = 64
+GROUND = (0.0, 0.0, 1.0)
+
+
+@pytest.fixture
+def gl(studio: Studio) -> Evaluators:
+    return Evaluators(painter=studio.painter)
+
+
+def surface(gl: Evaluators, net: np.ndarray, *, auto: bool = True, **domain: float) -> None:
+    target = GL_MAP2_VERTEX_4 if net.shape[-1] == 4 else GL_MAP2_VERTEX_3
+    ends = {"u1": 0.0, "u2": 1.0, "v1": 0.0, "v2": 1.0, **domain}
+    gl.glMap2f(target, *ends.values(), net)
+    gl.glEnable(target)
+    (gl.glEnable if auto else gl.glDisable)(GL_AUTO_NORMAL)
+
+
+def areas(mesh: ev.Evaluated) -> NDArray[np.float64]:
+    """Twice the area of each triangle, along the normal of its first corner."""
+    a, b, c = (mesh.points[mesh.primitives[:, k]].astype(float) for k in range(3))
+    return np.einsum("ij,ij->i", np.cross(b - a, c - a), mesh.normals[mesh.primitives[:, 0]])
+
+
+@pytest.mark.parametrize("evaluator", PATHS)
+@pytest.mark.parametrize("ends", [(0, 1, 0, 1), (1, 0, 0, 1), (0, 1, 1, 0), (1, 0, 1, 0)])
+@pytest.mark.parametrize("domain", [(0, 1, 0, 1), (1, 0, 0, 1), (1, 0, 1, 0)])
+def test_fill_winds_with_its_normal(
+    gl: Evaluators, evaluator: str, ends: tuple[int, ...], domain: tuple[int, ...]
+) -> None:
+    """(clockwise)"""
+    surface(gl, SQUARE, **dict(zip(("u1", "u2", "v1", "v2"), domain, strict=True)))
+    gl.glMapGrid2f(4, *ends[:2], 3, *ends[2:])
+    gl.glEvalMesh2(GL_FILL, 0, 4, 0, 3)
+    (mesh,) = gl.read(evaluator=evaluator)
+    assert mesh.mode == ev.GL_TRIANGLES
+    np.testing.assert_allclose(areas(mesh), 1 / 12, rtol=1e-5)
+
+
+def test_the_normal_turns_with_a_reversed_domain(gl: Evaluators) -> None:
+    """(does not)"""
+    normals = []
+    for u2 in (1.0, -1.0):
+        surface(gl, SQUARE, u2=u2)
+        gl.glEvalMesh2(GL_POINT, 0, 1, 0, 1)
+        normals.append(gl.read()[0].normals)
+    assert (normals[0] == [0, 0, 1]).all()
+    assert (normals[1] == [0, 0, -1]).all()
+
+
+@pytest.mark.parametrize("evaluator", PATHS)
+@pytest.mark.parametrize("segments", [7, 100, 1000])
+def test_the_grid_hits_its_last_value(gl: Evaluators, evaluator: str, segments: int) -> None:
+    """(0.99999934 of a hundred, 0.9999907 of a thousand)"""
+    gl.glMap1f(GL_MAP1_VERTEX_3, 2, 5, [(2, 0, 0), (5, 0, 0)])
+    gl.glEnable(GL_MAP1_VERTEX_3)
+    gl.glMapGrid1f(segments, 2, 5)
+    gl.glEvalMesh1(GL_POINT, 0, segments)
+    gl.glEvalMesh1(GL_POINT, segments // 2, segments)
+    whole, tail = gl.read(evaluator=evaluator)
+    assert whole.vertices[0, 0] == 2.0
+    assert whole.vertices[-1, 0] == 5.0
+    assert whole.parameters[-1, 0] == 5.0
+    assert (whole.vertices[segments // 2 :] == tail.vertices).all()  # (off by 3e-6)
+    np.testing.assert_allclose(whole.vertices[:, 0], whole.parameters[:, 0], atol=1e-6)
+
+
+@pytest.mark.parametrize("evaluator", PATHS)
+def test_points_of_the_grid_are_the_mesh_s(gl: Evaluators, evaluator: str) -> None:
+    surface(gl, NET)
+    gl.glMapGrid2f(7, -0.25, 1.5, 3, 1, 0)
+    gl.glEvalMesh2(GL_POINT, -2, 9, 1, 4)
+    gl.glBegin(ev.GL_POINTS)
+    for j in range(1, 5):
+        for i in range(-2, 10):
+            gl.glEvalPoint2(i, j)
+    gl.glEnd()
+    mesh, points = gl.read(evaluator=evaluator)
+    order = mesh.primitives[:, 0]
+    assert (mesh.vertices[order] == points.vertices).all()
+    assert (mesh.normals[order] == points.normals).all()
+    assert (mesh.parameters[order] == points.parameters).all()
+
+
+@pytest.mark.parametrize("evaluator", PATHS)
+def test_normals_do_not_move_points(gl: Evaluators, evaluator: str) -> None:
+    """(in the last bits, at 1526 of 1600 points)"""
+    gl.glMapGrid2f(39, 0, 1, 39, 0, 1)
+    for auto in (False, True):
+        surface(gl, NET, auto=auto)
+        gl.glEvalMesh2(GL_POINT, 0, 39, 0, 39)
+    without, with_normals = gl.read(evaluator=evaluator)
+    assert (without.vertices == with_normals.vertices).all()
+    assert (without.normals == [0, 0, 1]).all()
+
+
+@pytest.mark.parametrize("evaluator", PATHS)
+def test_singular_points_have_the_limit_as_normal(gl: Evaluators, evaluator: str) -> None:
+    """(the zero vector)"""
+    surface(gl, R[..., :3])
+    gl.glEvalMesh2(GL_POINT, 0, 1, 0, 1)
+    (corners,) = gl.read(evaluator=evaluator)
+    np.testing.assert_allclose(np.abs(corners.normals), [[0, 0, 1]] * 4, atol=1e-3)
+
+
+@pytest.mark.parametrize("evaluator", PATHS)
+def test_points_at_infinity_make_no_nan(gl: Evaluators, evaluator: str) -> None:
+    net = np.ones((3, 3, 4))
+    net[..., :3] = RANDOM.normal(size=(3, 3, 3))
+    net[0, 0, 3] = net[1, 1, 3] = 0.0
+    net[2, 2, 3] = -1.0
+    net[0, 2] = 0.0
+    surface(gl, net)
+    gl.glMapGrid2f(8, 0, 1, 8, 0, 1)
+    gl.glEvalMesh2(GL_POINT, 0, 8, 0, 8)
+    (found,) = gl.read(evaluator=evaluator)
+    assert (found.vertices[0] == np.float32([*net[0, 0, :3], 0.0])).all()
+    assert np.isfinite(found.vertices).all()
+    np.testing.assert_allclose(np.linalg.norm(found.normals, axis=-1), 1.0, atol=1e-6)
+    limit = surface_normal(net, 1e-3, 1e-3)
+    np.testing.assert_allclose(found.normals[0], limit, atol=1e-2)
+
+
+@pytest.mark.parametrize("evaluator", PATHS)
+def test_high_orders_and_extrapolation(gl: Evaluators, evaluator: str) -> None:
+    points = RANDOM.uniform(-1, 1, (32, 4))
+    points[:, 3] = RANDOM.uniform(0.5, 2, 32)
+    gl.glMap1d(GL_MAP1_VERTEX_4, 1, -1, points)
+    gl.glEnable(GL_MAP1_VERTEX_4)
+    gl.glBegin(ev.GL_LINE_STRIP)
+    for u in (1.0, -1.0, 0.3, 1.02):
+        gl.glEvalCoord1d(u)
+    gl.glEnd()
+    (found,) = gl.read(evaluator=evaluator)
+    t = (1 - np.float32([1.0, -1.0, 0.3, 1.02]).astype(float)) / 2
+    rows = points.astype(np.float32).astype(float)
+    expected = []
+    for s in t:
+        p = rows
+        while len(p) > 1:
+            p = (1 - s) * p[:-1] + s * p[1:]
+        expected.append(p[0])
+    np.testing.assert_allclose(found.vertices, expected, atol=1e-5)
+    assert found.primitives.tolist() == [[0, 1], [1, 2], [2, 3]]
+
+
+def test_collections_mix_evaluated_and_plain_vertices(gl: Evaluators) -> None:
+    gl.glMap1f(GL_MAP1_VERTEX_3, 0, 1, [(0, 0, 0), (1, 2, 3)])
+    gl.glMap1f(GL_MAP1_COLOR_4, 0, 1, [(0, 0, 0, 0), (1, 1, 1, 1)])
+    gl.glEnable(GL_MAP1_VERTEX_3)
+    surface(gl, SQUARE)
+    gl.glColor3f(1, 0.5, 0)
+    gl.glNormal3f(0, 1, 0)
+    gl.glBegin(ev.GL_TRIANGLE_FAN)
+    gl.glEvalCoord1f(0.5)
+    gl.glVertex3fv([7, 8, 9])
+    gl.glColor4f(0, 1, 0, 0.5)
+    gl.glEvalCoord2f(1, 0)
+    gl.glTexCoord2f(3, 4)
+    gl.glVertex4f(1, 2, 3, 4)
+    gl.glEnd()
+    gl.glEnable(GL_MAP1_COLOR_4)
+    gl.glBegin(ev.GL_POINTS)
+    gl.glEvalCoord1f(0.25)
+    gl.glVertex2f(1, 1)
+    gl.glEnd()
+    fan, points = gl.read()
+    assert fan.vertices.tolist() == [[0.5, 1, 1.5, 1], [7, 8, 9, 1], [1, 0, 0, 1], [1, 2, 3, 4]]
+    assert fan.colors.tolist() == [[1, 0.5, 0, 1]] * 2 + [[0, 1, 0, 0.5]] * 2
+    assert fan.normals.tolist() == [[0, 1, 0], [0, 1, 0], [0, 0, 1], [0, 1, 0]]
+    assert fan.texcoords.tolist() == [[0, 0, 0, 1]] * 3 + [[3, 4, 0, 1]]
+    assert fan.primitives.tolist() == [[0, 1, 2], [0, 2, 3]]
+    # what was evaluated is not the current value
+    assert points.colors.tolist() == [[0.25] * 4, [0, 1, 0, 0.5]]
+
+
+@pytest.mark.parametrize("evaluator", PATHS)
+def test_many_patches_are_one_batch(gl: Evaluators, evaluator: str) -> None:
+    nets = RANDOM.uniform(-1, 1, (70, 3, 2, 3)).astype(np.float32)
+    gl.glMap2f(GL_MAP2_TEXTURE_COORD_2, 0, 1, 0, 1, SQUARE[..., :2])
+    gl.glMap2f(GL_MAP2_INDEX, 0, 1, 0, 1, [[[3.0]], [[5.0]]])
+    gl.glEnable(GL_MAP2_TEXTURE_COORD_2)
+    gl.glEnable(GL_MAP2_INDEX)
+    gl.glMapGrid2f(2, 0, 1, 1, 0, 1)
+    for net in nets:
+        surface(gl, net)
+        gl.glEvalMesh2(GL_LINE, 0, 2, 0, 1)
+    recording = gl.take()
+    assert len(recording.batches) == 1
+    meshes = gl.read(recording, evaluator=evaluator)
+    assert len(meshes) == 70
+    for net, mesh in zip(nets, meshes, strict=True):
+        corners = mesh.vertices.reshape(3, 2, 4)[::2, :, :3]
+        assert (corners == net[::2]).all()
+        assert mesh.texcoords.reshape(3, 2, 4)[1, 1].tolist() == [0.5, 1, 0, 1]
+        assert mesh.indices.tolist() == [3, 3, 4, 4, 5, 5]
+    assert len(meshes[0].primitives) == 2 * 2 + 3
+
+
+# Drawing ------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def screen(studio: Studio) -> Iterator[moderngl.Framebuffer]:
+    ctx = studio.ctx
+    parts = [ctx.renderbuffer((SIZE, SIZE), 4), ctx.depth_renderbuffer((SIZE, SIZE))]
+    framebuffer = ctx.framebuffer(parts[:1], parts[1])
+    with ctx.scope(framebuffer, moderngl.DEPTH_TEST | moderngl.CULL_FACE):
+        framebuffer.clear(*GROUND, 1.0)
+        yield framebuffer
+    for part in (framebuffer, *parts):
+        part.release()
+
+
+def picture(screen: moderngl.Framebuffer) -> NDArray[np.uint8]:
+    """(row, column, 3), lowest row first."""
+    return np.frombuffer(screen.read(alignment=1), np.uint8).reshape(SIZE, SIZE, 3)
+
+
+def square_mesh(gl: Evaluators) -> Recording:
+    surface(gl, SQUARE)
+    gl.glMap2f(GL_MAP2_COLOR_4, 0, 1, 0, 1, [[(0, 0, 0, 1), (0, 1, 0, 1)], [(1, 0, 0, 1)] * 2])
+    gl.glMapGrid2f(4, 0, 1, 3, 0, 1)
+    gl.glEvalMesh2(GL_FILL, 0, 4, 0, 3)
+    return gl.take()
+
+
+def to_clip(low: float, high: float) -> NDArray[np.float64]:
+    scale = 2 / (high - low)
+    matrix = np.diag([scale, scale, 1.0, 1.0])
+    matrix[:2, 3] = -1 - low * scale
+    return matrix
+
+
+def test_drawn_in_the_current_colour(gl: Evaluators, screen: moderngl.Framebuffer) -> None:
+    """The culled back faces show that front is where the normal is."""
+    gl.glColor3f(0.2, 0.4, 0.6)
+    gl.draw(square_mesh(gl), projection=to_clip(-1, 1))
+    found = picture(screen)
+    assert (found[SIZE // 2 :, SIZE // 2 :] == [51, 102, 153]).all()
+    assert (found[: SIZE // 2] == [0, 0, 255]).all()
+    assert (found[:, : SIZE // 2] == [0, 0, 255]).all()
+
+
+def test_drawn_in_the_mapped_colour(gl: Evaluators, screen: moderngl.Framebuffer) -> None:
+    gl.glEnable(GL_MAP2_COLOR_4)
+    gl.draw(square_mesh(gl), projection=to_clip(0, 1))
+    u = (np.arange(SIZE) + 0.5) / SIZE
+    found = picture(screen)
+    np.testing.assert_allclose(found[10, :, 0], 255 * u, atol=0.6)
+    np.testing.assert_allclose(found[:, 10, 1], 255 * u * (1 - u[10]), atol=0.6 + 255 / 48)
+
+
+def test_drawn_with_a_texture(gl: Evaluators, screen: moderngl.Framebuffer, studio: Studio) -> None:
+    pixels = RANDOM.integers(0, 256, (4, 4, 3), dtype=np.uint8)
+    texture = studio.ctx.texture((4, 4), 3, pixels.tobytes(), alignment=1)
+    texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+    gl.glMap2f(GL_MAP2_TEXTURE_COORD_2, 0, 1, 0, 1, SQUARE[..., :2])
+    gl.glEnable(GL_MAP2_TEXTURE_COORD_2)
+    gl.draw(square_mesh(gl), projection=to_clip(0, 1), texture=texture)
+    texture.release()
+    assert (picture(screen) == pixels.repeat(SIZE // 4, 0).repeat(SIZE // 4, 1)).all()
+
+
+@pytest.mark.parametrize("turn", [0.0, 60.0, 180.0])
+def test_lit_by_opengl_s_formula_on_both_sides(
+    gl: Evaluators, screen: moderngl.Framebuffer, studio: Studio, turn: float
+) -> None:
+    a = np.radians(turn)
+    modelview = np.eye(4)
+    modelview[0, [0, 2]], modelview[2, [0, 2]] = (np.cos(a), np.sin(a)), (-np.sin(a), np.cos(a))
+    modelview[:2, 3] = -0.5 * np.cos(a), -0.5
+    studio.ctx.disable(moderngl.CULL_FACE)
+    light = Light(material_specular=(0.1, 0.2, 0.3), shininess=2.0, diffuse=(1.0, 0.5, 0.25))
+    projection = to_clip(-0.6, 0.6) @ np.diag([1, 1, -0.1, 1])
+    gl.draw(square_mesh(gl), projection=projection, modelview=modelview, light=light)
+    facing = abs(np.cos(a))
+    expected = 0.2 * 0.2 + 0.8 * facing * np.array([1, 0.5, 0.25])
+    expected += facing**2 * np.array([0.1, 0.2, 0.3])
+    found = picture(screen)[SIZE // 2, SIZE // 2]
+    np.testing.assert_allclose(found, 255 * np.minimum(expected, 1.0), atol=0.6)
+
+
+VERTEX = """#version 330 core
+in vec2 in_position; in float index; out float shade;
+void main() { gl_Position = vec4(in_position, 0.0, 1.0); shade = index; }"""
+FRAGMENT = """#version 330 core
+in float shade; out vec4 color;
+void main() { color = vec4(shade, 0.0, 0.0, 1.0); }"""
+
+
+def test_drawn_with_a_program_of_one_s_own(
+    gl: Evaluators, screen: moderngl.Framebuffer, studio: Studio
+) -> None:
+    program = studio.ctx.program(VERTEX, FRAGMENT)
+    gl.glIndexf(0.4)
+    gl.draw(square_mesh(gl), program)
+    assert (picture(screen)[SIZE // 2 :, SIZE // 2 :] == [102, 0, 0]).all()
+    program.release()
+    odd = studio.ctx.program(VERTEX.replace("index", "weight"), FRAGMENT)
+    with pytest.raises(InvalidOperation, match="attribute weight: expected position, normal"):
+        gl.draw(square_mesh(gl), odd)
+    odd.release()
+
+
+def test_collections_are_drawn_too(gl: Evaluators, screen: moderngl.Framebuffer) -> None:
+    surface(gl, SQUARE)
+    gl.glColor3f(1, 0, 0)
+    gl.glBegin(ev.GL_QUADS)
+    for u, v in ((0, 0), (1, 0), (1, 1), (0, 1)):
+        gl.glEvalCoord2f(u, v)
+    gl.glEnd()
+    gl.draw(projection=to_clip(-1, 1))
+    assert (picture(screen)[SIZE // 2 :, SIZE // 2 :] == [255, 0, 0]).all()
+    assert not gl.take().items
+
+
+@pytest.mark.usefixtures("screen")
+def test_a_recording_is_evaluated_once_and_its_memory_given_back(
+    gl: Evaluators, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    evaluation = gl._recordings._painter.evaluation
+    runs, released = [], []
+    run = evaluation.run
+    monkeypatch.setattr(evaluation, "run", lambda *a, **k: runs.append(run(*a, **k)) or runs[-1])
+    first, second = square_mesh(gl), square_mesh(gl)
+    for _ in range(3):
+        gl.draw(first, projection=to_clip(0, 1))
+        gl.draw(second, projection=to_clip(0, 1))
+    assert len(runs) == 2
+    drawables = gl._recordings._kept[first]
+    monkeypatch.setattr(type(drawables[0]), "release", lambda self: released.append(self))
+    del first, drawables
+    gc.collect()
+    gl.draw(second, projection=to_clip(0, 1))
+    assert len(released) == 1
+    for buffer in runs:
+        buffer.release()
