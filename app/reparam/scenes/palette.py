@@ -20,3 +20,7 @@ ALONG_V = rgb("D55E00")  # vermillion: where v runs
 CONTROL_NET = rgb("222222")
 SURFACE = rgb("56B4E9")  # sky blue: a surface without a picture
 PLAIN_GROUND = rgb("0000FF")  # far from the checkers and their mixtures, in colour and in grey
+SAMPLES = rgb("D55E00")  # vermillion: points of the image that a parameterisation hands out
+DERIVATIVE = rgb("009E73")  # bluish green: speed, curvature
+MOVING = rgb("E69F00")  # orange: what walks in time
+GUIDE = rgb("BBBBBB")  # what leads the eye
