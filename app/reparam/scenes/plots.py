@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from math import ceil, floor, log10
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from . import palette
 from .layers import Array, Color, Dots, Label, Layer, Polylines, Space
@@ -138,7 +138,7 @@ def _ticks(interval: Interval, log: bool) -> list[float]:
 
 def _clipped(points: Array, size: tuple[float, float]) -> Array:
     """Segments (k, 2, 3) or one line (1, k, 3): a polyline within the box 0..size."""
-    finite: NDArray[np.bool_] = np.isfinite(points).all(-1)
+    finite = np.asarray(np.isfinite(points).all(-1))
     inside = ((points[:, :2] >= -1e-9) & (points[:, :2] <= np.add(size, 1e-9))).all(-1)
     if (finite & inside).all():
         return points[None]
