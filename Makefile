@@ -42,8 +42,7 @@ parity: run-packages $(VENV)/test
 	@$(BIN)/python tests/parity/parity.py $(CASES)
 
 bench: run-packages $(VENV)/test
-	$(BIN)/python tests/benchmarks/static_mesh.py
-	$(BIN)/python tests/benchmarks/cold_start.py
+	$(BIN)/reparam bench
 
 gallery: run-packages $(VENV)/run
 	$(BIN)/python -m reparam.gallery docs/gallery 560x400

@@ -87,6 +87,14 @@ def parser() -> argparse.ArgumentParser:
     check.add_argument("--json", action="store_true")
     check.set_defaults(run=run_check)
 
+    bench = commands.add_parser("bench", help="measure our frames against others', as ratios")
+    bench.add_argument("benchmarks", nargs="*", metavar="BENCHMARK")
+    bench.add_argument(
+        "--pairs", type=int, default=41, help="of neighbouring runs; 41 if not given"
+    )
+    bench.add_argument("--json", action="store_true")
+    bench.set_defaults(run=run_bench)
+
     doctor = commands.add_parser("doctor", help="what OpenGL is here, and what mends it")
     doctor.add_argument("--json", action="store_true")
     doctor.set_defaults(run=run_doctor)
@@ -212,6 +220,23 @@ def run_check(options: argparse.Namespace) -> int:
 
         print(json.dumps([asdict(verdict) for verdict in verdicts], indent=2))
     return 0 if all(verdict.ok for verdict in verdicts) else 1
+
+
+def run_bench(options: argparse.Namespace) -> int:
+    """The benchmarks as a table, or JSON with the table as progress on stderr."""
+    from .bench import line, run
+
+    if not 1 <= options.pairs <= 10_000:
+        raise UsageError(f"--pairs: expected a number from 1 to 10000, found {options.pairs}")
+    rows = []
+    for row in run(options.benchmarks, options.pairs):
+        rows.append(row)
+        print(line(row), file=sys.stderr if options.json else sys.stdout, flush=True)
+    if options.json:
+        import json
+
+        print(json.dumps([row.as_json() for row in rows], indent=2))
+    return 0
 
 
 def run_doctor(options: argparse.Namespace) -> int:

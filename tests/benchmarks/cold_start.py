@@ -1,25 +1,21 @@
 """A cold `reparam render fig5 --plain` against the least program that draws the same picture.
 
-    python tests/benchmarks/cold_start.py [--pairs 21]
-
 The bare program (the text below) is a process of its own too: it opens the context, draws the
 same patch with hand-written shaders, the same picture as texture, with mip maps and
-multisampling, and writes the PNG. It is run twice: with numpy imported, as such programs do, and
-without, which nothing that computes with numpy can match. The median of ratios of neighbouring
-runs is printed; the first runs, which fill the driver's shader cache, do not count.
+multisampling, and writes the PNG. It is run with numpy imported, as such programs do, and
+without, which nothing that computes with numpy can match. The first runs, which fill the driver's
+shader cache, do not count.
 """
 
 from __future__ import annotations
 
-import argparse
-import statistics
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 from reparam.assets import texture_path
+from reparam.bench import Rows, Skipped, interleave
 
 BARE = '''
 import array
@@ -76,40 +72,24 @@ result.transpose(Image.Transpose.FLIP_TOP_BOTTOM).save(sys.argv[2])
 '''
 
 
-def seconds(command: list[str]) -> float:
-    """Wall-clock time of a process."""
-    began = time.perf_counter()
-    subprocess.run(command, check=True)
-    return time.perf_counter() - began
+RENDER = "import sys; from reparam.cli import main; sys.exit(main())"
 
 
-def main() -> None:
-    options = argparse.ArgumentParser(description=__doc__)
-    options.add_argument("--pairs", type=int, default=21)
-    pairs = options.parse_args().pairs
+def rows(pairs: int) -> Rows:
+    """Both kinds of the bare program."""
+    if not sys.platform.startswith("linux"):
+        yield Skipped("cold_start", "the bare program opens its context through EGL")
+        return
     with tempfile.TemporaryDirectory() as folder:
         script = Path(folder) / "bare.py"
-        script.write_text(BARE)
-        picture = str(texture_path("checkerboard"))
-        bare = [sys.executable, str(script), picture, f"{folder}/bare.png"]
-        others = {"numpy": [*bare, "numpy"], "no numpy": [*bare, "none"]}
-        render = "import sys; from reparam.cli import main; sys.exit(main())"
-        ours = [
-            sys.executable,
-            "-c",
-            render,
-            "render",
-            "fig5",
-            "--plain",
-            "-o",
-            f"{folder}/ours.png",
-        ]
-        for name, other in others.items():
-            for _ in range(2):
-                seconds(other), seconds(ours)
-            ratios = [seconds(ours) / seconds(other) for _ in range(pairs)]
-            print(f"cold_start / bare with {name:10} {statistics.median(ratios):.3f}", flush=True)
-
-
-if __name__ == "__main__":
-    main()
+        script.write_text(BARE, encoding="utf-8")
+        bare = [sys.executable, str(script), str(texture_path("checkerboard"))]
+        draw = ["render", "fig5", "--plain", "-o", f"{folder}/ours.png"]
+        for kind, goal in (("numpy", 1.3), ("without-numpy", None)):
+            other = [*bare, f"{folder}/bare.png", kind]
+            times = interleave(
+                lambda: subprocess.run([sys.executable, "-c", RENDER, *draw], check=True),
+                lambda other=other: subprocess.run(other, check=True),
+                pairs,
+            )
+            yield times.row(f"cold_start/{kind}", goal=goal, size="512x512")
