@@ -112,6 +112,14 @@ def _add_drawing_options(command: argparse.ArgumentParser, size: str) -> None:
         help="a parameter of the scene or of its display; `reparam list` names them",
     )
     command.add_argument(
+        "--view",
+        action="append",
+        default=[],
+        metavar="SPACE=ZOOM,X,Y",
+        dest="views",
+        help="how a space is seen: zoom, pan, and ,AZIMUTH,ELEVATION of a spatial one",
+    )
+    command.add_argument(
         "--evaluator",
         choices=("vertex", "tessellation"),
         help="if not given: tessellation on a GPU that has it, vertex on software",
@@ -133,6 +141,10 @@ def _subject(options: argparse.Namespace) -> Subject:
     from .subject import open_subject, without_bad_pictures
 
     subject = open_subject(options.subject).assigned(options.assignments)
+    if options.views:
+        from .saving import parse_view, with_views
+
+        subject = with_views(subject, dict(parse_view(text) for text in options.views))
     subject, warnings = without_bad_pictures(subject)
     for warning in warnings:
         print(f"reparam: {warning}", file=sys.stderr)

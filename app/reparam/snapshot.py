@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .frame import draw_subject
 from .gpu.context import create_headless
 from .gpu.painter import Painter
 from .gpu.targets import Target
@@ -29,11 +30,9 @@ class Studio:
     ) -> NDArray[np.uint8]:
         """The subject as (height, width, 3), top row first."""
         self.ctx.__enter__()  # type: ignore[no-untyped-call]  # current, should there be another
-        display = subject.display
-        target = Target(self.ctx, size, display.samples, self.painter.capabilities)
+        target = Target(self.ctx, size, subject.display.samples, self.painter.capabilities)
         try:
-            figure = subject.figure()
-            self.painter.draw(figure, target, display, evaluator=self.evaluator, plain=plain)
+            draw_subject(self.painter, subject, target, evaluator=self.evaluator, plain=plain)
             return target.pixels()
         finally:
             self.ctx.extra.use()

@@ -9,10 +9,13 @@ from pathlib import Path
 from typing import Any
 
 from .errors import FileFormatError, UsageError
+from .files.saved import is_saved
+from .geometry.camera import View
 from .scenes.display import Display
 from .scenes.layers import Figure
 from .scenes.parameters import Parameter, find, parameters_of
 from .scenes.registry import Scene, file_scene, load_scene, scene_names
+from .scenes.remember import remember
 
 DISPLAY = parameters_of(Display)
 
@@ -26,11 +29,13 @@ class Subject:
     display: Display = field(default_factory=Display)
     data: Mapping[str, Any] = field(default_factory=dict)  # what has no text form: a file's body
     title: str = ""
+    source: str = ""  # the path of the file, if it is one
+    views: Mapping[str, View] = field(default_factory=dict)  # of its spaces, by name
 
     def figure(self) -> Figure:
         """The picture for these values. Raises UsageError if the scene refuses them."""
         try:
-            return self.scene({**self.values, **self.data})
+            return _figure(self.scene, self.values, self.data)
         except ValueError as fault:
             raise UsageError(str(fault)) from fault
 
@@ -69,6 +74,11 @@ class Subject:
         return subject
 
 
+@remember
+def _figure(scene: Scene, values: Mapping[str, Any], data: Mapping[str, Any]) -> Figure:
+    return scene({**values, **data})
+
+
 def without_bad_pictures(subject: Subject) -> tuple[Subject, list[str]]:
     """The subject with each picture that cannot be read put back, and a warning for each."""
     warnings = []
@@ -84,22 +94,28 @@ def without_bad_pictures(subject: Subject) -> tuple[Subject, list[str]]:
     return subject, warnings
 
 
-def scene_subject(scene: Scene, data: Mapping[str, Any] | None = None, title: str = "") -> Subject:
+def scene_subject(
+    scene: Scene, data: Mapping[str, Any] | None = None, title: str = "", source: str = ""
+) -> Subject:
     """A scene with its defaults."""
     values = {name: parameter.default for name, parameter in scene.parameters.items()}
-    return Subject(scene, values, data=data or {}, title=title or scene.title)
+    return Subject(scene, values, data=data or {}, title=title or scene.title, source=source)
 
 
 def open_subject(name: str) -> Subject:
-    """A scene by its name, or a file by its path.
+    """A scene by its name, or a file by its path: a surface, or a scene that was saved.
 
     Raises UsageError for a name that is neither, FileFormatError for a file that is not readable.
     """
     if name in scene_names():
         return scene_subject(load_scene(name))
     path = Path(name)
+    if is_saved(path):
+        from .saving import open_saved
+
+        return open_saved(path, open_subject)
     if path.suffix.lower() == ".bv" or os.path.exists(path):  # Path.exists raises on long names
         from .files.bv import read_bv
 
-        return scene_subject(file_scene(), {"body": read_bv(path)}, path.name)
+        return scene_subject(file_scene(), {"body": read_bv(path)}, path.name, name)
     return scene_subject(load_scene(name))  # raises, naming what there is

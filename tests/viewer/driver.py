@@ -38,21 +38,21 @@ class Window:
 
     def __init__(self, display: str, folder: Path, *words: str) -> None:
         self.folder = folder
-        self._environment = {**os.environ, "DISPLAY": display, "PYTHONUNBUFFERED": "1"}
+        self.environment = {**os.environ, "DISPLAY": display, "PYTHONUNBUFFERED": "1"}
         command = [sys.executable, "-m", "reparam", "view", "--size", "320x240", *words]
         app = Path(__file__).parents[2] / "app"
-        self._environment["PYTHONPATH"] = str(app)
+        self.environment["PYTHONPATH"] = str(app)
         self.log = folder / "log"
         with self.log.open("w") as log:
             self.process = subprocess.Popen(
-                command, cwd=folder, env=self._environment, stdout=log, stderr=log
+                command, cwd=folder, env=self.environment, stdout=log, stderr=log
             )
         self.wait_for("H: all keys")
         self._id = self.xdotool("search", "--sync", "--name", "reparam").split()[-1]
 
     def xdotool(self, *words: str) -> str:
         result = subprocess.run(
-            ["xdotool", *words], env=self._environment, capture_output=True, text=True, check=True
+            ["xdotool", *words], env=self.environment, capture_output=True, text=True, check=True
         )
         return result.stdout
 
@@ -65,31 +65,48 @@ class Window:
 
     def press(self, key: str, notice: str) -> None:
         times = self.log.read_text().count(notice) + 1
+        self.xdotool_key(key)
+        self.wait_for(notice, times)
+
+    def xdotool_key(self, key: str) -> None:
+        """Press and release a key, or several at once."""
         self.xdotool("key", "--window", self._id, key)
+
+    def type_line(self, key: str, text: str, notice: str) -> None:
+        """A key that asks for a line of text, the text, Enter; wait for a notice."""
+        times = self.log.read_text().count(notice) + 1
+        self.xdotool_key(key)
+        if text:
+            self.xdotool("type", "--window", self._id, text)
+        self.xdotool_key("Return")
         self.wait_for(notice, times)
 
     def drag(self, start: tuple[float, float], way: tuple[float, float], notice: str) -> None:
         """Press at `start` (pixels, y down), move by `way` in steps, let go; wait for a notice."""
         times = self.log.read_text().count(notice) + 1
-        self.move(start)
+        self.point(start)
         self.xdotool("mousedown", "1")
         for part in (0.25, 0.5, 0.75, 1.0):
-            self.move((start[0] + part * way[0], start[1] + part * way[1]))
+            self.point((start[0] + part * way[0], start[1] + part * way[1]))
         self.xdotool("mouseup", "1")
         self.wait_for(notice, times)
 
-    def move(self, to: tuple[float, float]) -> None:
+    def point(self, to: tuple[float, float]) -> None:
         """The mouse to a place in the window, in pixels, y down."""
         x, y = (str(round(c)) for c in to)
         self.xdotool("mousemove", "--window", self._id, "--sync", x, y)
 
     def screenshot(self) -> np.ndarray:
         self.press("s", "saved ")
+        return self.last_picture()
+
+    def last_picture(self) -> np.ndarray:
+        """The picture saved last."""
         path = self.log.read_text().rsplit("saved ", 1)[1].splitlines()[0]
         return np.asarray(Image.open(path))
 
     def close(self) -> int:
         """Escape. The window is gone before the key is released, of which xdotool complains."""
         command = ["xdotool", "key", "--window", self._id, "Escape"]
-        subprocess.run(command, env=self._environment, capture_output=True, check=False)
+        subprocess.run(command, env=self.environment, capture_output=True, check=False)
         return self.process.wait(SECONDS)

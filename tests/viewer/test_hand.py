@@ -25,8 +25,8 @@ class Table:
         self.draw()
 
     def draw(self) -> None:
+        self.hand.steady()
         figure, net = self.state.subject.figure(), self.state.subject.display.net
-        self.hand.steady(figure, net)
         self.hand.see(arrange(figure, SIZE, self.state.views, False, net))
 
     def points(self) -> np.ndarray:

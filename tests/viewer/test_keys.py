@@ -7,13 +7,13 @@ from pathlib import Path
 import pytest
 
 from reparam.cli import main
-from reparam.viewer.keys import GESTURES, KEYS, keys_markdown, keys_rows
+from reparam.viewer.keys import GROUPS, KEYS, Key, keys_groups, keys_markdown
 
 ROOT = Path(__file__).parents[2]
 
 
 def test_no_name_twice() -> None:
-    names = [name.upper() for row in (*KEYS, *GESTURES) for name in row.names]
+    names = [name.upper() for _, rows in GROUPS for row in rows for name in row.names]
     assert len(names) == len(set(names))
 
 
@@ -26,8 +26,10 @@ def test_the_help_in_the_terminal(capsys: pytest.CaptureFixture[str]) -> None:
         main(["view", "--help"])
     assert stopped.value.code == 0
     lines = [line.split() for line in capsys.readouterr().out.splitlines()]
-    for names, does in keys_rows():
-        assert [*names.split(), *does.split()] in lines
+    for title, rows in keys_groups():
+        assert title.split() in lines
+        for names, does in rows:
+            assert [*names.split(), *does.split()] in lines
 
 
 def test_the_readme() -> None:
@@ -35,7 +37,10 @@ def test_the_readme() -> None:
 
 
 def test_every_key_is_in_a_row() -> None:
-    assert len(keys_rows()) == len(KEYS) + len(GESTURES)
-    for row, (names, _) in zip(KEYS, keys_rows(), strict=False):
+    shown = [names for _, rows in keys_groups() for names, _ in rows]
+    rows = [row for _, rows in GROUPS for row in rows]
+    assert len(shown) == len(rows)
+    assert tuple(row for row in rows if isinstance(row, Key)) == KEYS
+    for row, names in zip(rows, shown, strict=True):
         assert names.startswith(row.names[0])
         assert names.endswith(row.names[-1])

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import shlex
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 from driver import SIZE, Window, virtual_screen
+from PIL import Image
 
 from reparam.gpu.painter import arrange
 from reparam.snapshot import Studio
@@ -70,6 +74,39 @@ def test_a_dragged_point_moves_alone_and_undo_brings_the_picture_back(
         assert np.array_equal(window.screenshot(), before)
         window.press("ctrl+shift+z", "redone: points")
         assert np.array_equal(window.screenshot(), moved)
+        assert window.close() == 0
+    finally:
+        window.process.kill()
+
+
+def test_what_is_kept_draws_the_same_picture_without_a_window(
+    display: str, tmp_path: Path, studio: Studio
+) -> None:
+    window = Window(display, tmp_path)
+    try:
+        window.press("t", "texture = r")
+        window.press("n", "net = on")
+        window.press("w", "wireframe = on")
+        window.type_line("Return", "checks = 5", "checks = 5")
+        window.point((SIZE[0] * 0.4, SIZE[1] * 0.4))
+        window.xdotool("click", "4")  # the wheel
+        picture = window.screenshot()
+        window.press("ctrl+s", "saved ")
+        saved = window.log.read_text().rsplit("saved ", 1)[1].splitlines()[0]
+        assert np.array_equal(studio.draw(open_subject(saved), SIZE), picture)
+        window.press("ctrl+c", "copied: ")
+        words = shlex.split(window.log.read_text().rsplit("copied: ", 1)[1].splitlines()[0])
+        assert "--view" in words
+        command = [sys.executable, "-m", *words]
+        subprocess.run(command, cwd=tmp_path, env=window.environment, check=True)
+        rendered = np.asarray(Image.open(tmp_path / words[words.index("-o") + 1]))
+        assert np.array_equal(rendered, picture)
+        window.type_line("shift+s", "", "saved ")  # twice the size is offered
+        large = window.last_picture()
+        assert np.array_equal(large, studio.draw(open_subject(saved), (2 * SIZE[0], 2 * SIZE[1])))
+        window.type_line("Return", "checks = 0", "expected a whole number from 1 to 256")
+        window.xdotool_key("Escape")  # leaves the line, not the window
+        assert np.array_equal(window.screenshot(), picture)
         assert window.close() == 0
     finally:
         window.process.kill()

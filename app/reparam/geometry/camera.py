@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
+MOST_ZOOM = 1e6
 MARGIN = 1.08  # a framed box leaves 4 % of the viewport free on each side
 
 
@@ -20,6 +21,18 @@ class View:
     pan: tuple[float, float] = (0.0, 0.0)
     azimuth: float = -60.0  # degrees about the z-axis; 0 looks along +y, from the front
     elevation: float = 30.0  # degrees above the plane z = 0
+
+
+def check_view(view: View) -> View:
+    """The view itself if a picture can be seen so, else ValueError."""
+    numbers = np.array([view.zoom, *view.pan, view.azimuth, view.elevation])
+    if len(view.pan) != 2 or not np.isfinite(numbers).all():
+        raise ValueError(f"expected finite numbers and a pan of two, found {view}")
+    if not 0.0 < view.zoom <= MOST_ZOOM or abs(view.elevation) > 90.0:
+        raise ValueError(
+            f"expected a zoom up to {MOST_ZOOM:g} and elevation within 90°, found {view}"
+        )
+    return view
 
 
 @dataclass(frozen=True)

@@ -136,6 +136,13 @@ class Parameter:
         except (ValueError, KeyError):
             raise UsageError(f"{self.name}: expected {self.expected()}, found {text!r}") from None
 
+    def accept(self, value: Any) -> Value:
+        """The value if JSON's own types say what this parameter takes, else ValueError."""
+        kinds: dict[type, tuple[type, ...]] = {float: (int, float), np.ndarray: (list,)}
+        if type(value) not in kinds.get(self.type, (self.type,)):
+            raise ValueError(f"{self.name}: expected {self.expected()}, found {value!r}")
+        return self.check(float(value) if self.type is float else value)
+
     def _parse_points(self, text: str) -> Array:
         try:
             return self.check(json.loads(text))  # type: ignore[no-any-return]

@@ -8,10 +8,11 @@ from math import ceil, floor, log10
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import ReparamError
+from ..errors import ReparamError, UsageError
 from ..geometry.camera import Camera, view_through
+from ..geometry.net import LARGEST
 from ..gpu.painter import Panel, extent
-from ..scenes.layers import Figure, Handles
+from ..scenes.layers import Handles
 from .state import State
 
 Array = NDArray[np.float64]
@@ -157,6 +158,33 @@ class Hand:
             return
         self.see([replace(p, space=spaces.get(p.space.name, p.space)) for p in self.panels])
 
+    def ask(self) -> None:
+        """Ask for the coordinates of the handle under the mouse, or of the one held last."""
+        grip = self.over or self.chosen
+        panel, layer = (self.panel(grip.space), self.layer(grip)) if grip else (None, None)
+        if grip is None or panel is None or layer is None:
+            self._state.ask_for_parameter()
+            return
+        spatial = panel.space.spatial
+        self.chosen = grip
+        title = f"{layer.name(grip.index)} =  x, y{', z' if spatial else ''}"
+        start = coordinates(layer.at[grip.index], spatial)[1:-1]
+        self._state.ask(title, lambda text: self._put(grip, text, 3 if spatial else 2), start)
+
+    def _put(self, grip: Grip, text: str, count: int) -> None:
+        """A handle to the coordinates that were typed. Raises UsageError."""
+        layer = self.layer(grip)
+        try:
+            numbers = [float(word) for word in text.strip("()").replace(",", " ").split()]
+            point = np.array(numbers)
+            if layer is None or len(numbers) != count or not (np.abs(point) <= LARGEST).all():
+                raise ValueError
+        except ValueError:
+            raise UsageError(f"expected {count} numbers, found {text!r}") from None
+        self.move(grip, np.array([*numbers, *layer.at[grip.index, count:]]))
+        self._renew()
+        self._state.say(self.described(grip))
+
     def described(self, grip: Grip) -> str:
         """Name and coordinates of a handle."""
         panel, layer = self.panel(grip.space), self.layer(grip)
@@ -165,16 +193,17 @@ class Hand:
         point = coordinates(layer.at[grip.index], panel.space.spatial)
         return f"{layer.name(grip.index)} = {point}"
 
-    def steady(self, figure: Figure, net: bool) -> None:
+    def steady(self) -> None:
         """Before drawing: a dragged point may change what is to be seen, but the picture stays."""
         panel = self.panel(self.chosen.space) if self.held and self.chosen else None
         if panel is None or self._camera is None:
             return
-        for space in figure.spaces:
+        subject = self._state.subject
+        for space in subject.figure().spaces:
             if space.name == panel.space.name:
                 size = (panel.region.width, panel.region.height)
                 view = self._state.view(space.name)
-                seen = extent(space, net)
+                seen = extent(space, subject.display.net)
                 kept = view_through(self._camera, seen, *size, view, space.spatial)
                 self._state.keep_view(space.name, kept)
 

@@ -23,49 +23,87 @@ class Gesture:
     does: str
 
 
-KEYS = (
-    Key(("T",), "texture map: the identity, or r itself", "next_texture"),
-    Key(("M",), "morph between the square and its image", "glide"),
-    Key(("Space",), "animate, or stop", "play"),
-    Key(("C",), "checker size", "next_checks"),
-    Key(("N",), "control net", "toggle_net"),
-    Key(("W",), "wireframe", "toggle_wireframe"),
-    Key(("E",), "evaluator: vertex shader, or tessellation", "next_evaluator"),
-    Key(("+", "-"), "tessellation level, finer and coarser", "change_level", (1, -1)),
-    Key(tuple("123456789"), "the note's figures", "show_figure", tuple(range(1, 10))),
-    Key(("PageDown", "PageUp"), "next and previous scene", "turn_page", (1, -1)),
-    Key(("R",), "reset the view; again: the parameters", "reset"),
-    Key(("Ctrl+Z",), "undo", "undo"),
-    Key(("Ctrl+Shift+Z", "Ctrl+Y"), "redo", "redo"),
-    Key(("S",), "screenshot into the current folder", "screenshot"),
-    Key(("F5",), "reload the shaders", "reload_shaders"),
-    Key(("F11",), "full screen", "toggle_full_screen"),
-    Key(("H", "F1"), "this help", "toggle_help"),
-    Key(("Esc",), "quit", "quit"),
+GROUPS: tuple[tuple[str, tuple[Key | Gesture, ...]], ...] = (
+    (
+        "the scene",
+        (
+            Key(("T",), "texture map: the identity, or r itself", "next_texture"),
+            Key(("M",), "morph between the square and its image", "glide"),
+            Key(("Space",), "animate, or stop", "play"),
+            Key(("C",), "checker size", "next_checks"),
+            Key(tuple("123456789"), "the note's figures", "show_figure", tuple(range(1, 10))),
+            Key(("PageDown", "PageUp"), "next and previous scene", "turn_page", (1, -1)),
+        ),
+    ),
+    (
+        "how it is drawn",
+        (
+            Key(("N",), "control net", "toggle_net"),
+            Key(("W",), "wireframe", "toggle_wireframe"),
+            Key(("+", "-"), "tessellation level, finer and coarser", "change_level", (1, -1)),
+            Key(("E",), "evaluator: vertex shader, or tessellation", "next_evaluator"),
+        ),
+    ),
+    (
+        "looking",
+        (
+            Gesture(("drag",), "move the picture; turn a spatial surface"),
+            Gesture(("right drag",), "move a spatial surface"),
+            Gesture(("wheel",), "zoom at the mouse"),
+            Key(("R",), "reset the view; again: the parameters", "reset"),
+        ),
+    ),
+    (
+        "changing",
+        (
+            Gesture(("drag a point",), "change the scene; with Shift in steps"),
+            Key(("Enter",), "type the point's coordinates, or a parameter", "type_value"),
+            Key(("Ctrl+Z",), "undo", "undo"),
+            Key(("Ctrl+Shift+Z", "Ctrl+Y"), "redo", "redo"),
+        ),
+    ),
+    (
+        "keeping",
+        (
+            Key(("S",), "screenshot into the current folder", "screenshot"),
+            Key(("Shift+S",), "screenshot, larger", "ask_screenshot"),
+            Key(("Ctrl+S",), "save the scene into the current folder", "save_scene"),
+            Key(("Ctrl+C",), "copy the command that draws this picture", "copy_command"),
+        ),
+    ),
+    (
+        "the window",
+        (
+            Key(("H", "F1"), "this help", "toggle_help"),
+            Key(("F11",), "full screen", "toggle_full_screen"),
+            Key(("F5",), "reload the shaders", "reload_shaders"),
+            Key(("Esc",), "quit", "quit"),
+        ),
+    ),
 )
 
-GESTURES = (
-    Gesture(("drag a point",), "change the scene; with Shift in steps"),
-    Gesture(("drag",), "move the picture; turn a spatial surface"),
-    Gesture(("right drag",), "move a spatial surface"),
-    Gesture(("wheel",), "zoom at the mouse"),
-)
+KEYS = tuple(row for _, rows in GROUPS for row in rows if isinstance(row, Key))
 
 
-def keys_rows() -> list[tuple[str, str]]:
-    """(keys, what they do), for the help in all its places."""
-    return [(_names(row.names), row.does) for row in (*KEYS, *GESTURES)]
+def keys_groups() -> list[tuple[str, list[tuple[str, str]]]]:
+    """What they are for, with (keys, what they do): for the help in all its places."""
+    return [(title, [(_names(row.names), row.does) for row in rows]) for title, rows in GROUPS]
 
 
 def keys_text() -> str:
     """The table as plain text."""
-    return "\n".join(f"  {names:16} {does}" for names, does in keys_rows())
+    lines = []
+    for title, rows in keys_groups():
+        lines += [f" {title}", *(f"  {names:22} {does}" for names, does in rows)]
+    return "\n".join(lines)
 
 
 def keys_markdown() -> str:
     """The table as the README has it."""
-    rows = [f"| {names} | {does} |" for names, does in keys_rows()]
-    return "\n".join(["| key | what it does |", "|---|---|", *rows])
+    lines = ["| key | what it does |", "|---|---|"]
+    for title, rows in keys_groups():
+        lines += [f"| **{title}** | |", *(f"| {names} | {does} |" for names, does in rows)]
+    return "\n".join(lines)
 
 
 def _names(names: tuple[str, ...]) -> str:

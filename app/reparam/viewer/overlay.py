@@ -9,11 +9,16 @@ from ..gpu.labels import SMALLEST, Labels, measure
 from ..gpu.painter import UNITS, Painter, Panel
 from ..scenes.layers import Handles
 from .hand import Grip, Hand, model_units, snap_step
-from .keys import keys_rows
+from .keys import keys_groups
+from .state import Prompt
 
 INK = (1.0, 1.0, 1.0)
+FAINT = (0.70, 0.70, 0.74)
+HEADING = (0.60, 0.80, 0.95)
 GROUND = (0.10, 0.10, 0.12, 0.88)
 HELP_GROUND = (0.10, 0.10, 0.12, 0.95)  # a checkerboard behind small text disturbs
+CARET = "|"
+PROMPT_HINT = "Enter: set     Esc: leave"
 NOTICE = 1.9  # its height in em
 LARGER = 1.35  # the handle under the mouse
 LEAST = 3.0  # figure units, its radius before that
@@ -86,6 +91,7 @@ def _in_panel(
 def draw_notice(labels: Labels, text: str, size: tuple[int, int]) -> None:
     """One line in the upper left corner, where figures have nothing."""
     em = _em(size)
+    text = _elided(text, round(em), size[0] - 2 * em)
     width = min(measure(text, round(em)) + 2 * em, size[0])
     labels.box(0, size[1] - NOTICE * em, width, NOTICE * em, size, GROUND)
     labels.text(
@@ -99,30 +105,78 @@ def draw_notice(labels: Labels, text: str, size: tuple[int, int]) -> None:
     )
 
 
+def draw_prompt(labels: Labels, prompt: Prompt, size: tuple[int, int]) -> None:
+    """The line that is asked for, with what has been typed so far."""
+    em = _em(size)
+    typed = (prompt.text, 1.0, HEADING) if prompt.offered else (prompt.text + CARET, 1.0, INK)
+    rows = ((prompt.title, 0.85, FAINT), typed, (PROMPT_HINT, 0.75, FAINT))
+    width = min(size[0], max(measure(row, round(s * em)) for row, s, _ in rows) + 3 * em)
+    width, height = max(width, min(24 * em, size[0])), 5.2 * em
+    left, top = (size[0] - width) / 2, size[1] - (NOTICE + 0.5) * em
+    labels.box(left, top - height, width, height, size, HELP_GROUND)
+    for i, (row, share, color) in enumerate(rows):
+        at = (left + 1.5 * em, top - (1.1 + 1.5 * i) * em)
+        room = width - 3 * em
+        labels.text(row, at, size, share * em, color, anchor=(0.0, 0.5), widest=room)
+
+
 def draw_help(labels: Labels, size: tuple[int, int]) -> None:
-    """The table of keys in the middle, as large as fits beside the notice's line."""
-    rows = keys_rows()
+    """The keys grouped by purpose, in two columns, as large as fits beneath the notice's line."""
     room = size[1] - NOTICE * _em(size)
-    em = min(_em(size), room / (1.4 * len(rows) + 1.6), 0.98 * size[0] / _help_width(1.0))
+    columns = _columns()
+    lines = max(sum(len(rows) + 1.6 for _, rows in column) for column in columns)
+    em = min(_em(size), room / (1.4 * lines + 1.4), 0.98 * size[0] / _help_width(1.0))
     if em < SMALLEST:
         return
-    width, height = _help_width(em), (1.4 * len(rows) + 1.6) * em
+    width, height = _help_width(em), (1.4 * lines + 1.0) * em
     left = (size[0] - width) / 2
     top = min(room, (size[1] + height) / 2)
     labels.box(left, top - height, width, height, size, HELP_GROUND)
-    column = left + 1.5 * em + _first_column(em)
-    for i, (names, does) in enumerate(rows):
-        y = top - (1.5 + 1.4 * i) * em
-        labels.text(names, (left + 1.5 * em, y), size, em, INK, anchor=(0.0, 0.5))
-        labels.text(does, (column, y), size, em, INK, anchor=(0.0, 0.5))
+    x = left + 1.5 * em
+    for column in columns:
+        y = top - 1.4 * em
+        for title, rows in column:
+            labels.text(title, (x, y), size, em, HEADING, anchor=(0.0, 0.5))
+            y -= 1.4 * em
+            for names, does in rows:
+                labels.text(names, (x, y), size, em, INK, anchor=(0.0, 0.5))
+                place = (x + _names_width(column, em), y)
+                labels.text(does, place, size, em, INK, anchor=(0.0, 0.5))
+                y -= 1.4 * em
+            y -= 0.84 * em
+        x += _column_width(column, em) + 2.5 * em
 
 
-def _first_column(em: float) -> float:
-    return _widest([names for names, _ in keys_rows()]) * em + 1.5 * em
+Column = list[tuple[str, list[tuple[str, str]]]]
+
+
+def _columns() -> tuple[Column, Column]:
+    """The groups in two columns of nearly one height."""
+    groups = keys_groups()
+    heights = [len(rows) + 1.6 for _, rows in groups]
+    split = min(range(1, len(groups)), key=lambda k: max(sum(heights[:k]), sum(heights[k:])))
+    return groups[:split], groups[split:]
+
+
+def _names_width(column: Column, em: float) -> float:
+    return (_widest([names for _, rows in column for names, _ in rows]) + 1.2) * em
+
+
+def _column_width(column: Column, em: float) -> float:
+    does = _widest([does for _, rows in column for _, does in rows])
+    return _names_width(column, em) + does * em
 
 
 def _help_width(em: float) -> float:
-    return _first_column(em) + _widest([does for _, does in keys_rows()]) * em + 3 * em
+    return sum(_column_width(column, em) for column in _columns()) + 5.5 * em
+
+
+def _elided(text: str, pixels: int, widest: float) -> str:
+    """The line, its end left out where it does not fit at half the size."""
+    if measure(text, max(1, pixels // 2)) <= widest:
+        return text
+    count = int(len(text) * widest / measure(text, max(1, pixels // 2)))
+    return text[: max(1, count - 2)] + "…"
 
 
 def _widest(texts: list[str]) -> float:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from math import asin, sin
 from typing import Any
 
 import numpy as np
 
+from ..errors import ReparamError
 from ..geometry.camera import View
 from ..scenes.registry import scene_names
 from ..subject import Subject, open_subject, scene_subject
@@ -19,6 +20,17 @@ CHECKS = (2, 4, 8, 16, 32)
 NOTICE_SECONDS = 2.5
 ANIMATION_SECONDS = 3.0  # from one end to the other
 GLIDE_SECONDS = 0.7
+
+
+@dataclass
+class Prompt:
+    """A line of text that is asked for, and what it is for. `accept` raises what is wrong."""
+
+    title: str
+    text: str
+    accept: Callable[[str], None]
+    offered: bool  # the text is only proposed: typing begins a new one
+
 
 Motion = Callable[[float], float | None]  # a value by the clock, None when it is over
 
@@ -34,7 +46,7 @@ class State:
         self.subject = subject
         self.evaluators = evaluators
         self.evaluator = evaluator
-        self.views: dict[str, View] = {}
+        self.views: dict[str, View] = dict(subject.views)
         self.help = False
         self.changed = True
         self.refresh = False
@@ -44,8 +56,14 @@ class State:
         self._motion: tuple[str, Motion] | None = None  # of the parameter of that name
         self._visited: dict[str, tuple[Subject, dict[str, View]]] = {}
         self._opened = subject if subject.data else None
+        self.prompt: Prompt | None = None
         self._history = History()
         self._gesture: object = None
+
+    def snapshot(self) -> Subject:
+        """All that the picture is made from: the subject, seen as it is now."""
+        looked_at = {name: view for name, view in self.views.items() if view != View()}
+        return replace(self.subject, views=looked_at)
 
     # Time -----------------------------------------------------------------------------------
 
@@ -142,7 +160,8 @@ class State:
             self.changed = True
             self.say("view reset")
             return
-        self._replace(scene_subject(self.subject.scene, self.subject.data, self.subject.title))
+        here = self.subject
+        self._replace(scene_subject(here.scene, here.data, here.title, here.source))
         self.say("parameters reset")
 
     def undo(self) -> None:
@@ -196,6 +215,49 @@ class State:
         self._history.note(before, Moment(self.subject.changed("morph", end), before.views))
         self._motion = ("morph", motion)
         self.say(f"morph to {end:.0f}")
+
+    # Text -----------------------------------------------------------------------------------
+
+    def ask(self, title: str, accept: Callable[[str], None], text: str = "") -> None:
+        """Ask for a line of text, proposing one; keys go there until Enter or Escape."""
+        self.prompt = Prompt(title, text, accept, offered=bool(text))
+        self.refresh = True
+
+    def ask_for_parameter(self) -> None:
+        """Ask for `name=value`, as the command line has it."""
+        self.ask("set a parameter:  name = value", self._assign)
+
+    def _assign(self, text: str) -> None:
+        name, _, value = text.partition("=")
+        subject = self.subject.assigned([f"{name.strip()}={value.strip()}"] if value else [text])
+        self._replace(subject)
+        self.say(f"{name.strip()} = {subject.shown(name.strip())}")
+
+    def type_text(self, text: str) -> None:
+        """More of the line that is asked for."""
+        if self.prompt is not None:
+            self.prompt.text = text if self.prompt.offered else self.prompt.text + text
+            self.prompt.offered = False
+            self.refresh = True
+
+    def type_key(self, name: str) -> None:
+        """BACKSPACE, ENTER and ESC, while a line is asked for; others change nothing."""
+        prompt = self.prompt
+        if prompt is None:
+            return
+        self.refresh = True
+        if name == "BACKSPACE":
+            prompt.text = "" if prompt.offered else prompt.text[:-1]
+            prompt.offered = False
+        elif name == "ESC":
+            self.prompt = None
+        elif name == "ENTER":
+            try:
+                self.prompt = None
+                prompt.accept(prompt.text.strip())
+            except (ReparamError, ValueError) as fault:
+                self.prompt, prompt.offered = prompt, False  # the text stays, to be mended
+                self.say(str(fault), 8.0)
 
     # Parameters -----------------------------------------------------------------------------
 
@@ -309,7 +371,7 @@ class State:
         if name in self._visited:
             subject, self.views = self._visited[name]
         else:
-            subject, self.views = open_subject(name), {}
+            subject, self.views = open_subject(name), {}  # a scene: it has no views of its own
         self.subject = replace(subject, display=display)
         self.changed = True
         self.say(f"{name}: {self.subject.title}")

@@ -8,17 +8,21 @@ from typing import Any
 
 import glfw
 import moderngl
+import numpy as np
+from numpy.typing import NDArray
 
-from ..errors import GraphicsError, ReparamError
+from ..errors import GraphicsError, ReparamError, UsageError
 from ..files.output import check_output, save_picture
+from ..frame import draw_subject
 from ..gpu.context import create_for_window
 from ..gpu.diagnosis import explain
-from ..gpu.painter import Painter
+from ..gpu.painter import Painter, Panel
 from ..gpu.targets import Target
+from ..saving import command, save
 from ..subject import Subject
 from .keys import KEYS
 from .mouse import Mouse
-from .overlay import draw_grid, draw_grip, draw_handles, draw_help, draw_notice
+from .overlay import draw_grid, draw_grip, draw_handles, draw_help, draw_notice, draw_prompt
 from .screen import screen_missing
 from .state import State
 
@@ -30,7 +34,7 @@ UNDRAWABLE = (ReparamError, ValueError, OSError, AssertionError, moderngl.Error)
 # Names of the table that are not GLFW's own.
 NAMED = {"Esc": "ESCAPE", "PageDown": "PAGE_DOWN", "PageUp": "PAGE_UP"}
 TYPED = {"+": ("+", "="), "-": ("-", "_")}  # `+` needs no Shift
-KEYPAD = {glfw.KEY_KP_ADD: "+", glfw.KEY_KP_SUBTRACT: "-"}
+KEYPAD = {glfw.KEY_KP_ADD: "+", glfw.KEY_KP_SUBTRACT: "-", glfw.KEY_KP_ENTER: "ENTER"}
 KEYPAD |= {glfw.KEY_KP_1 + i: str(1 + i) for i in range(9)}
 
 
@@ -85,7 +89,9 @@ class Viewer:
         self._windowed: tuple[int, int, int, int] | None = None
         self._began = time.perf_counter()
         self._actions = self._bind_keys()
+        self._typed_by_key = False  # the letter that opened a prompt does not go into it
         glfw.set_key_callback(window, self._on_key)
+        glfw.set_char_callback(window, self._on_char)
         glfw.set_framebuffer_size_callback(window, self._on_damage)
         glfw.set_window_refresh_callback(window, self._on_damage)
         self.state.say(hint(subject), 6.0)
@@ -138,19 +144,15 @@ class Viewer:
 
     def _draw_frame(self, size: tuple[int, int]) -> Target:
         subject = self.state.subject
-        figure = subject.figure()
-        self._mouse.hand.steady(figure, subject.display.net)
+        self._mouse.hand.steady()
         self._renew_target(size, subject.display.samples)
         assert self._target is not None
-        panels = self._painter.draw(
-            figure,
-            self._target,
-            subject.display,
-            evaluator=self.state.evaluator,
-            views=self.state.views,
-        )
-        self._mouse.see(panels)
+        self._mouse.see(self._paint(self._target))
         return self._target
+
+    def _paint(self, target: Target) -> list[Panel]:
+        subject, evaluator = self.state.snapshot(), self.state.evaluator
+        return draw_subject(self._painter, subject, target, evaluator=evaluator)
 
     def _renew_target(self, size: tuple[int, int], samples: int) -> None:
         """A target of that size and with that many samples, the present one if it is so."""
@@ -169,6 +171,8 @@ class Viewer:
         self._draw_hand(target.size)
         if self.state.help:
             draw_help(self._painter.labels, target.size)
+        if (prompt := self.state.prompt) is not None:
+            draw_prompt(self._painter.labels, prompt, target.size)
         if self.state.notice:
             draw_notice(self._painter.labels, self.state.notice, target.size)
         glfw.swap_buffers(self._window)
@@ -201,6 +205,11 @@ class Viewer:
             return
         name, nothing = key_name(key, scancode), (None, ())
         held = "CTRL+" if mods & (glfw.MOD_CONTROL | glfw.MOD_SUPER) else ""
+        self._typed_by_key = False
+        if self.state.prompt is not None:
+            self._tick()
+            self._type(held + name)
+            return
         plain = self._actions.get(held + name, nothing)  # Shift changes nothing but what it names
         shifted = f"{held}SHIFT+{name}" if mods & glfw.MOD_SHIFT else ""
         method, arguments = self._actions.get(shifted, plain)
@@ -208,23 +217,93 @@ class Viewer:
             return  # a key held down repeats only what goes on: levels and pages
         self._tick()  # the clock stood still while the window waited for this key
         method(*arguments)
+        self._typed_by_key = self.state.prompt is not None
 
-    def screenshot(self) -> None:
-        """The frame, without help or notice, into the next free file of the current folder."""
+    def _type(self, name: str) -> None:
+        """A key while a line of text is asked for."""
+        if name == "CTRL+V":
+            text: Any = glfw.get_clipboard_string(self._window) or b""
+            letters = text.decode("utf-8", "replace")
+            self.state.type_text("".join(c for c in letters if c.isprintable()))
+        self.state.type_key(name)
+
+    def _on_char(self, _: Any, code: int) -> None:
+        if not self._typed_by_key:
+            self.state.type_text(chr(code))
+        self._typed_by_key = False
+
+    def type_value(self) -> None:
+        """Ask for the coordinates of a point, or for a parameter."""
+        self._mouse.hand.ask()
+
+    # Files ----------------------------------------------------------------------------------
+
+    def screenshot(self, times: int = 1) -> None:
+        """The frame, without what the window adds, into the next free file of the folder."""
         if self.state.changed:
             self._draw()  # what a key or the mouse did just now belongs to it
         if self._target is None:
             return
-        name = Path(self.state.subject.title).stem if self.state.subject.data else ""
-        stem = f"reparam-{name or self.state.subject.scene.name}"
-        number = 1
-        while (path := Path.cwd() / f"{stem}-{number:03}.png").exists():
-            number += 1
         try:
-            save_picture(self._target.pixels(), check_output(path))
+            path = check_output(self._free_path(".png"))
+            save_picture(self._target.pixels() if times == 1 else self._enlarged(times), path)
             self.state.say(f"saved {path}")
         except ReparamError as error:
             self.state.say(str(error), 8.0)
+
+    def ask_screenshot(self) -> None:
+        """Ask how many times the window's size a screenshot shall have, and make it."""
+
+        def accept(text: str) -> None:
+            if not text.isdecimal() or int(text) < 1:
+                raise UsageError(f"expected a whole number from 1, found {text!r}")
+            self.screenshot(int(text))
+
+        width, height = glfw.get_framebuffer_size(self._window)
+        self.state.ask(f"screenshot, how many times {width} x {height}?", accept, "2")
+
+    def _enlarged(self, times: int) -> NDArray[np.uint8]:
+        """The same picture with `times` as many pixels to each side. Raises GraphicsError."""
+        assert self._target is not None
+        width, height = (times * side for side in self._target.size)
+        samples = self.state.subject.display.samples
+        target = Target(self._ctx, (width, height), samples, self._painter.capabilities)
+        try:
+            self._paint(target)
+            return target.pixels()
+        finally:
+            target.release()
+
+    def save_scene(self) -> None:
+        """Everything that the picture is made from, as a file that `reparam view` opens again."""
+        try:
+            path = self._free_path(".json")
+            save(self.state.snapshot(), path)
+            self.state.say(f"saved {path}")
+        except ReparamError as error:
+            self.state.say(str(error), 8.0)
+
+    def copy_command(self) -> None:
+        """The command line that draws this picture without a window, into the clipboard."""
+        size = glfw.get_framebuffer_size(self._window)
+        usual = self._painter.capabilities.evaluator(None)
+        evaluator = self.state.evaluator if self.state.evaluator != usual else None
+        text = command(self.state.snapshot(), size, evaluator, f"{self._stem()}.png")
+        glfw.set_clipboard_string(self._window, text)
+        self.state.say(f"copied: {text}", 6.0)
+
+    def _stem(self) -> str:
+        subject = self.state.subject
+        return f"reparam-{Path(subject.source).stem if subject.source else subject.scene.name}"
+
+    def _free_path(self, ending: str) -> Path:
+        """The next free file of the current folder."""
+        number = 1
+        while (path := Path.cwd() / f"{self._stem()}-{number:03}{ending}").exists():
+            number += 1
+        return path
+
+    # The window -----------------------------------------------------------------------------
 
     def reload_shaders(self) -> None:
         """Read the shaders anew; broken ones leave the last good ones at work."""
