@@ -204,13 +204,20 @@ class Extraction:
 
 
 def extraction(knots: Array, order: int, cuts: ArrayLike = ()) -> Extraction:
-    """The Bezier extraction of checked knots, cut at parameters `cuts` of the domain as well.
-
-    With cuts two splines of different knots come as pieces over the same intervals.
-    """
+    """The Bezier extraction of checked knots, cut at parameters `cuts` of the domain as well."""
     low, high = domain(knots, order)
     more = np.asarray(cuts, dtype=np.float64)
-    ends = np.union1d(breakpoints(knots, order), more[(more >= low) & (more <= high)])
+    inside = more[(more >= low) & (more <= high)]
+    return extraction_between(knots, order, np.union1d(breakpoints(knots, order), inside))
+
+
+def extraction_between(knots: Array, order: int, ends: Array) -> Extraction:
+    """The Bezier extraction of checked knots over the intervals between rising `ends`.
+
+    Among the ends are the spline's own knots, as far as the ends reach; so splines of different
+    knots come as pieces over the same intervals. Beyond its domain a spline is extrapolated, as
+    OpenGL's maps are.
+    """
     intervals = np.stack([ends[:-1], ends[1:]], -1)
     span = find_span(knots, order, intervals[:, 0])
     jumps = np.array([np.count_nonzero(knots == t) >= order for t in ends[:-1]])
