@@ -160,3 +160,16 @@ def test_of_handles_at_one_place_the_nearest_to_the_eye_is_found() -> None:
         table.hand.point_at(SIZE[0] / 2, SIZE[1] / 2, 1.0)
         assert table.hand.over is not None
         assert at[table.hand.over.index] == eye.tolist()
+
+
+def test_a_click_is_told_apart_from_a_drag() -> None:
+    """Section 1 of figure 3 is modified; clicked it is kept, dragged it stays what it was."""
+    table = Table(scene="fig3")
+    assert table.state.subject.value("arcs") == "KMKM"
+    table.drag(1, (1.0, -1.0))  # the handles of the sections come first
+    assert table.state.subject.value("arcs") == "KKKM"
+    table.draw()
+    table.drag(1, (30.0, 0.0))
+    assert table.state.subject.value("arcs") == "KKKM"
+    table.state.undo()
+    assert table.state.subject.value("arcs") == "KMKM"

@@ -154,6 +154,7 @@ class Label:
 
 
 Drag = Callable[[Mapping[str, Any], int, Array], Mapping[str, Any]]
+Click = Callable[[Mapping[str, Any], int], Mapping[str, Any]]
 
 
 @dataclass(frozen=True)
@@ -162,7 +163,8 @@ class Handles:
 
     `drag(values, index, point)` gets the scene's parameter values and where point `index` shall
     go, (3,), and returns the parameters that change. In a space of the plane z stays as it is, in
-    a spatial one the point moves in the view plane.
+    a spatial one the point moves in the view plane. `click(values, index)`, where there is one, is
+    asked the same when the hand lets go without having moved.
     """
 
     at: Array
@@ -171,6 +173,7 @@ class Handles:
     color: Color = (0.8, 0.475, 0.655)  # reddish purple
     radius: float = 4.0  # figure units
     quiet: bool = False  # many: in the window only with the control net, or under the mouse
+    click: Click | None = None
 
     def __post_init__(self) -> None:
         _freeze(self)

@@ -24,3 +24,5 @@ SAMPLES = rgb("D55E00")  # vermillion: points of the image that a parameterisati
 DERIVATIVE = rgb("009E73")  # bluish green: speed, curvature
 MOVING = rgb("E69F00")  # orange: what walks in time
 GUIDE = rgb("BBBBBB")  # what leads the eye
+KEPT = rgb("D55E00")  # vermillion, on a curve: what stays as it was
+MODIFIED = rgb("0072B2")  # blue, on a curve: what a designer changes

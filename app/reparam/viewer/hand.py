@@ -146,9 +146,14 @@ class Hand:
         self.held = self.snapping = False
         self._camera = None
         self._state.end_gesture()
-        if self._moving and self.chosen is not None:
+        if self.chosen is None:
+            return
+        layer = self.layer(self.chosen)
+        if self._moving:
             self._renew()  # the last bit of the way is not drawn yet
             self._state.say(self.described(self.chosen))
+        elif layer is not None and layer.click is not None:
+            self._state.change(layer.click(self._state.subject.values, self.chosen.index))
 
     def _renew(self) -> None:
         """The layers as they will be drawn next, if they can be drawn."""

@@ -266,6 +266,8 @@ class State:
 
         Raises ValueError for a value that is not allowed.
         """
+        if not changes:
+            return
         subject = self.subject
         for name, value in changes.items():
             subject = subject.changed(name, value)
