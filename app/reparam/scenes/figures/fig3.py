@@ -141,7 +141,8 @@ def combs(curve: list[list[Array]]) -> Iterator[Layer]:
     """The curvature comb of all pieces to one scale, its longest tooth not beyond the frame."""
     pieces = [piece for section in curve for piece in section]
     t = np.linspace(0.0, 1.0, 25)
-    largest = max(float(np.abs(curvature(piece, t)).max()) for piece in pieces)
+    bends = np.nan_to_num(np.abs([curvature(piece, t) for piece in pieces]))
+    largest = max(1.0, float(bends.max()))
     scale = min(TOOTH, LONGEST_TOOTH / largest)
     for piece in pieces:
         yield from curvature_comb(piece, scale, 24)
