@@ -146,7 +146,7 @@ def test_doctor(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 BAD_WORDS = {
-    "unknown scene": (["fgi5"], 2, "expected a scene (fig4, fig5", "did you mean fig5?"),
+    "unknown scene": (["fgi5"], 2, "expected a scene (", "did you mean fig5?"),
     "long scene": ([LONG], 2, "expected a scene", ""),
     "surface needs a file": (["surface"], 2, "expected a scene", ""),
     "unknown parameter": (["fig5", "--set", "textur=r"], 2, "'textur'", "did you mean texture?"),
