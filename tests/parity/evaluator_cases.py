@@ -108,6 +108,18 @@ def true_normals(map_: Map, parameters: Array) -> Array:
     return surface_normal(padded(map_), *unit(map_, parameters)) * np.sign((u2 - u1) * (v2 - v1))
 
 
+def true_fields(called: Called, fields: set[str], parameters: Array) -> dict[str, Array]:
+    """The fields asked for, as they should be."""
+    found = {}
+    for field in fields:
+        if field == "normal" and called.auto_normal:
+            found[field] = true_normals(called.feeds["pos"], parameters)
+        else:
+            width = 3 if field == "normal" else 4
+            found[field] = true_values(called.feeds[field], parameters)[:, :width]
+    return found
+
+
 def regular(map_: Map, parameters: Array) -> NDArray[np.bool_]:
     """Where the tangents are long and open enough for float32 to tell the normal to 1e-5."""
     net, (u, v) = padded(map_), unit(map_, parameters)
@@ -178,12 +190,7 @@ def compare_normals(
 def expected_outputs(case: Case, called: Called, parameters: Array) -> dict[str, Array]:
     """The case's outputs; float64 where they are known to be wrong."""
     theirs = {field: np.array(values, float) for field, values in case["outputs"].items()}
-    for field in wrong_fields(case) & set(theirs):
-        if field == "normal" and called.auto_normal:
-            theirs[field] = true_normals(called.feeds["pos"], parameters)
-        else:
-            theirs[field] = true_values(called.feeds[field], parameters)
-    return theirs
+    return theirs | true_fields(called, wrong_fields(case) & set(theirs), parameters)
 
 
 def evaluated_at(called: Called, parameters: Array, evaluator: str) -> Evaluated:
@@ -248,25 +255,22 @@ def compare_mesh(studio: Studio, case: Case, evaluator: str, row: Row) -> None:
     axes = [drifted(*grid[3 * d : 3 * d + 3], *ranges[d]) for d in range(dimension)]
     places = np.stack(np.meshgrid(*axes, *[[0.0]] * (2 - dimension), indexing="ij"), -1)
     moved = evaluated_at(called, places.reshape(-1, 2), evaluator)
-    compare_primitives(called, row, mesh, moved, theirs)
+    compare_primitives(called, row, mesh, moved, theirs, wrong_fields(case))
 
 
 def compare_exact_mesh(called: Called, row: Row, mesh: Evaluated, theirs: dict[str, Array]) -> None:
     """Our vertices against float64 at the parameters handed back."""
-    truth = {
-        field: true_normals(called.feeds["pos"], mesh.parameters)
-        if field == "normal" and called.auto_normal
-        else true_values(called.feeds[field], mesh.parameters)
-        for field in theirs
-    }
-    for field, expected in truth.items():
-        if field == "normal":
-            truth[field] = expected[:, :3]
+    truth = true_fields(called, set(theirs), mesh.parameters)
     compare_fields(called, row, fields_of(mesh), truth, mesh.parameters)
 
 
 def compare_primitives(
-    called: Called, row: Row, mesh: Evaluated, moved: Evaluated, theirs: dict[str, Array]
+    called: Called,
+    row: Row,
+    mesh: Evaluated,
+    moved: Evaluated,
+    theirs: dict[str, Array],
+    wrong: set[str],
 ) -> None:
     """Each of their primitives is one of ours, with equal fields at each corner."""
     corners = mesh.primitives.shape[1]
@@ -276,13 +280,15 @@ def compare_primitives(
         return
     ours = {field: values[mesh.primitives] for field, values in fields_of(moved).items()}
     other = {f: v.reshape(len(mesh.primitives), corners, -1) for f, v in theirs.items()}
+    telling = [field for field in other if field not in wrong] or ["pos"]
     order = paired(
-        np.concatenate([ours[f][..., : other[f].shape[-1]] for f in other], -1),
-        np.concatenate(list(other.values()), -1),
+        np.concatenate([ours[f][..., : other[f].shape[-1]] for f in telling], -1),
+        np.concatenate([other[f] for f in telling], -1),
     )
     parameters = moved.parameters[mesh.primitives][order].reshape(-1, 2)
     arranged = {field: values[order].reshape(count, -1) for field, values in ours.items()}
-    compare_fields(called, row, arranged, theirs, parameters)
+    expected = theirs | true_fields(called, set(theirs) & wrong, parameters)
+    compare_fields(called, row, arranged, expected, parameters)
 
 
 def paired(ours: Array, theirs: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
