@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -19,7 +20,7 @@ from reparam.gpu.programs import Programs, degree_defines, locate, stage_source
 from reparam.gpu.readback import read_points
 from reparam.snapshot import Studio
 
-LOOKS: list[dict[str, int]] = [
+LOOKS: list[dict[str, Any]] = [
     {},
     {"LIT": 1},
     {"TEXTURED": 1},
@@ -31,7 +32,7 @@ TESSELLATION = ("patch.tess.vert", "patch.tesc", "patch.tese")
 EVALUATE = degree_defines(**{"": (3, 1)}) | {"NORMALS": 1}
 LOW = degree_defines(POSITION_=(2, 3), TEXTURE_=(1, 1))
 HIGH = degree_defines(POSITION_=(2, 9), TEXTURE_=(1, 1))
-VARIANTS: list[tuple[tuple[str, ...], dict[str, int]]] = [
+VARIANTS: list[tuple[tuple[str, ...], dict[str, Any]]] = [
     *((("mesh.vert", "patch.frag"), look) for look in LOOKS),
     *(((*TESSELLATION, "patch.frag"), look | LOW) for look in LOOKS),
     *(((*TESSELLATION, "patch.frag"), look | HIGH) for look in LOOKS),
@@ -45,11 +46,14 @@ VARIANTS: list[tuple[tuple[str, ...], dict[str, int]]] = [
     (("evaluate.vert",), degree_defines(**{"": (1, 31)}) | {"NORMALS": 1}),
     (("stroke.vert", "stroke.frag"), {}),
     (("flatten.vert",), {}),
+    (("parametric.vert",), {"FORMULA_X(u, w)": "sine(u)", "FORMULA_Y(u, w)": "arctangent(w)"}),
+    (("trace.vert",), degree_defines(**{"": (3, 0)})),
+    (("trace.vert",), degree_defines(**{"": (9, 0)})),
     (("reach.vert",), {}),
     (("marker.vert", "marker.frag"), {}),
     (("label.vert", "label.frag"), {}),
 ]
-MARKED: tuple[tuple[str, ...], dict[str, int]] = (("marker.vert", "marker.frag"), {})
+MARKED: tuple[tuple[str, ...], dict[str, Any]] = (("marker.vert", "marker.frag"), {})
 
 
 @pytest.fixture
@@ -80,7 +84,7 @@ def place(text: str, wanted: str) -> tuple[int, int]:
     return string, number
 
 
-def validate(folder: Path, stages: tuple[str, ...], defines: dict[str, int]) -> str:
+def validate(folder: Path, stages: tuple[str, ...], defines: dict[str, Any]) -> str:
     """What glslangValidator says against the stages, each alone and linked; nothing if good.
 
     It knows `precise` from GLSL 4.00 on, not by the extension that drivers offer it by.
@@ -96,7 +100,7 @@ def validate(folder: Path, stages: tuple[str, ...], defines: dict[str, int]) -> 
 
 @pytest.mark.parametrize(("stages", "defines"), VARIANTS)
 def test_every_variant_is_valid(
-    tmp_path: Path, stages: tuple[str, ...], defines: dict[str, int]
+    tmp_path: Path, stages: tuple[str, ...], defines: dict[str, Any]
 ) -> None:
     assert validate(tmp_path, stages, defines) == ""
 

@@ -13,9 +13,8 @@ from numpy.typing import NDArray
 from reparam.geometry.camera import Camera
 from reparam.geometry.curve import circular_arc, curve_net, curve_points
 from reparam.gpu.polylines import curve_links, joined, segments_needed
-from reparam.gpu.strokes import StrokeLayer
 from reparam.gpu.targets import Target
-from reparam.scenes.layers import Curves, Dots, Polylines
+from reparam.scenes.layers import Curves, Dots, Polylines, Stroked
 from reparam.snapshot import Studio
 
 Array = NDArray[np.float64]
@@ -24,7 +23,7 @@ SIDE, POINTS = 96, 16
 BLACK = (0.0, 0.0, 0.0)
 
 
-def coverage(studio: Studio, *layers: StrokeLayer, samples: int = 4) -> Array:
+def coverage(studio: Studio, *layers: Stroked, samples: int = 4) -> Array:
     """How much of each pixel black layers cover, bottom row first; model units are pixels."""
     target = Target(studio.ctx, (SIDE, SIDE), samples, studio.painter.capabilities)
     camera = Camera(np.eye(3), np.array([SIDE / 2, SIDE / 2, 0.0]), SIDE / 2, SIDE / 2, 100.0)

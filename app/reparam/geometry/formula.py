@@ -215,9 +215,13 @@ FUNCTIONS = {
     "sin": Rule(np.sin, _of("cos"), "sine"),
     "cos": Rule(np.cos, lambda f: minus(ZERO, Function("sin", f)), "cosine"),
     "tan": Rule(np.tan, lambda f: plus(ONE, _square(Function("tan", f))), "tangent"),
-    "asin": Rule(np.arcsin, lambda f: over(ONE, Function("sqrt", minus(ONE, _square(f)))), "asin"),
+    "asin": Rule(
+        np.arcsin, lambda f: over(ONE, Function("sqrt", minus(ONE, _square(f)))), "arcsine"
+    ),
     "acos": Rule(
-        np.arccos, lambda f: over(Number(-1.0), Function("sqrt", minus(ONE, _square(f)))), "acos"
+        np.arccos,
+        lambda f: over(Number(-1.0), Function("sqrt", minus(ONE, _square(f)))),
+        "arccosine",
     ),
     "atan": Rule(np.arctan, lambda f: over(ONE, plus(ONE, _square(f))), "arctangent"),
     "sinh": Rule(np.sinh, _of("cosh"), "sinh"),

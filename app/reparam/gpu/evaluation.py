@@ -9,9 +9,10 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from ..geometry.formula import Formula
 from .kept import Kept
 from .nets import NET_UNIT, net_texture
-from .programs import Programs, degree_defines
+from .programs import Program, Programs, degree_defines
 
 Array = NDArray[np.float64]
 
@@ -93,6 +94,35 @@ class Evaluation:
         values = np.frombuffer(captured.read(), np.float32)
         captured.release()
         return values.reshape(count, len(parameters), FLOATS[normals])
+
+    def formulas(self, x: Formula, y: Formula, w: float, parameters: Array) -> moderngl.Buffer:
+        """Points (x(u), y(u), 0, 1), float32 (k, 4), at parameters (k,): parametric.vert."""
+        defines = {"FORMULA_X(u, w)": x.glsl(), "FORMULA_Y(u, w)": y.glsl()}
+        program = self._programs.get("parametric.vert", defines=defines, varyings=("point",))
+        program.set(w=w)
+        return self._capture(program, "parameter", parameters)
+
+    def trace(self, net: Array, table: Array, fractions: Array) -> moderngl.Buffer:
+        """Points, float32 (k, 4), at fractions (k,) of the length of curves: trace.vert."""
+        curves = net.reshape(-1, net.shape[-2], 1, 4)
+        program = self._programs.get(
+            "trace.vert", defines=degree_defines(**{"": orders(curves)}), varyings=("point",)
+        )
+        self.texture(curves).use(0)
+        self.texture(np.pad(table, ((0, 0), (0, 2)))).use(1)
+        program.set(net=0, table=1, entries=len(table), pieces=len(curves), degree=orders(curves))
+        return self._capture(program, "fraction", fractions)
+
+    def _capture(self, program: Program, name: str, values: Array) -> moderngl.Buffer:
+        """What a program of one float a vertex makes of the values (k,)."""
+        given = self._ctx.buffer(values.astype(np.float32).tobytes())
+        captured = self._ctx.buffer(reserve=len(values) * FLOATS[False] * 4)
+        used = [(given, "1f", name)] if name in program.gl else []
+        vertices = self._ctx.vertex_array(program.ready(), used)
+        vertices.transform(captured, moderngl.POINTS, len(values))
+        vertices.release()
+        given.release()
+        return captured
 
     def _upload(self, parameters: Array) -> Parameters:
         return self._parameters.get(

@@ -19,15 +19,11 @@ from ..scenes import palette
 from ..scenes.display import Display
 from ..scenes.layers import (
     ControlNet,
-    Curves,
-    Dots,
     Figure,
     Handles,
-    IsoLines,
     Label,
     Layer,
     Patches,
-    Polylines,
     Space,
 )
 from .context import Capabilities, capabilities
@@ -231,9 +227,11 @@ class Painter:
                     self.surfaces.draw_wireframe(
                         layer, nearer, evaluator, display.level, palette.INK
                     )
-            case IsoLines() | Curves() | Polylines() | Dots():
-                self.strokes.draw(layer, camera, unit)
-            case ControlNet() if display.net:
+            case ControlNet() if not display.net:
+                pass
+            case Label() | Handles():
+                pass
+            case _:
                 self.strokes.draw(layer, camera, unit)
 
     def _draw_label(self, label: Label, panel: Panel, size: tuple[int, int], unit: float) -> None:

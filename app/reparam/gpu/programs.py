@@ -29,8 +29,8 @@ VERSIONS = {
     400: "#version 400 core\n#define PRECISE precise\n",
 }
 
-Defines = Mapping[str, int | float]
-Key = tuple[tuple[str, ...], tuple[tuple[str, int | float], ...], tuple[str, ...]]
+Defines = Mapping[str, int | float | str]
+Key = tuple[tuple[str, ...], tuple[tuple[str, int | float | str], ...], tuple[str, ...]]
 
 _UNIFORM = re.compile(r"^\s*uniform\s+\w+\s+(\w+)", re.MULTILINE)
 

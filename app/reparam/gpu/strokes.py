@@ -15,7 +15,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.camera import Camera
-from ..scenes.layers import Color, ControlNet, Curves, Dots, Handles, IsoLines, Polylines
+from ..scenes.layers import (
+    Color,
+    ControlNet,
+    Curves,
+    Dots,
+    Handles,
+    IsoLines,
+    Parametric,
+    Polylines,
+    Stroked,
+    Traced,
+)
 from .evaluation import Evaluation, patch_count
 from .kept import Kept
 from .nets import NET_WIDTH
@@ -32,7 +43,6 @@ from .polylines import (
 from .programs import Programs
 
 Array = NDArray[np.float64]
-StrokeLayer = IsoLines | Curves | Polylines | Dots | ControlNet
 
 DEPTH_BIAS = 2e-3  # lines that lie on a surface come before it
 HANDLE_RINGS = ((1.5, (0.13, 0.13, 0.13)), (0.8, (1.0, 1.0, 1.0)))  # seen on any ground
@@ -98,7 +108,7 @@ class Strokes:
         self._flat.clear()
         self._reach.clear()
 
-    def draw(self, layer: StrokeLayer, camera: Camera, unit: float) -> None:
+    def draw(self, layer: Stroked | ControlNet, camera: Camera, unit: float) -> None:
         """A layer into the current viewport; a figure unit is `unit` pixels."""
         screen = Screen(camera, self._ctx.viewport, unit)
         match layer:
@@ -110,6 +120,10 @@ class Strokes:
                 self._draw_polylines(layer, screen)
             case Dots():
                 self._draw_dots(layer.at, screen, layer.color, layer.radius)
+            case Parametric():
+                self._draw_parametric(layer, screen)
+            case Traced():
+                self._draw_traced(layer, screen)
             case ControlNet():
                 self._draw_control_net(layer, screen)
 
@@ -177,6 +191,36 @@ class Strokes:
             return self._upload(*joined(np.repeat(at.reshape(-1, 1, 3), 2, 1)))
 
         self._stroke(at, "dots", upload, screen, color, 2.0 * radius)
+
+    def _draw_parametric(self, layer: Parametric, screen: Screen) -> None:
+        def points(times: int) -> Callable[[], Lines]:
+            def make() -> Lines:
+                captured = self._evaluation.formulas(
+                    layer.x, layer.y, layer.w, np.repeat(layer.at, times)
+                )
+                return self._linked(captured, len(layer.at), times)
+
+            return make
+
+        key = (layer.x, layer.y, layer.w)
+        if layer.width:
+            self._stroke(layer.at, key, points(1), screen, layer.color, layer.width)
+        if layer.radius:
+            width = 2.0 * layer.radius
+            self._stroke(layer.at, (key, "dots"), points(2), screen, layer.color, width)
+
+    def _draw_traced(self, layer: Traced, screen: Screen) -> None:
+        def make() -> Lines:
+            captured = self._evaluation.trace(layer.net, layer.table, np.repeat(layer.at, 2))
+            return self._linked(captured, len(layer.at), 2)
+
+        key = (layer.net.tobytes(), layer.table.tobytes())
+        self._stroke(layer.at, key, make, screen, layer.color, 2.0 * layer.radius)
+
+    def _linked(self, points: moderngl.Buffer, count: int, times: int) -> Lines:
+        """Evaluated points as one line, or, each given twice, as dots."""
+        links = np.tile([0.0, 1.0], count) if times == 2 else np.arange(count) > 0
+        return Lines(points, self._ctx.buffer(links.astype(np.float32).tobytes()), len(links))
 
     def _draw_control_net(self, layer: ControlNet, screen: Screen) -> None:
         """Lines along the legs, dots at the control points."""

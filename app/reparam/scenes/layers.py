@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.evaluate import sample_surface
+from ..geometry.formula import Formula
 
 Array = NDArray[np.float64]
 Color = tuple[float, float, float]
@@ -128,6 +129,43 @@ class Dots:
 
 
 @dataclass(frozen=True)
+class Parametric:
+    """The curve (x(u), y(u)) at parameters (k,), evaluated on the GPU from its own formulas.
+
+    The formulas hold u and w; `width` 0 draws no line, `radius` 0 no dots.
+    """
+
+    x: Formula
+    y: Formula
+    at: Array
+    w: float = 0.0
+    color: Color = INK
+    width: float = 1.6
+    radius: float = 0.0
+
+    def __post_init__(self) -> None:
+        _freeze(self)
+
+
+@dataclass(frozen=True)
+class Traced:
+    """Dots on Bezier curves at fractions (k,) of their length, found on the GPU from a table.
+
+    `net` is (n, 4) or (curves, n, 4), end to start; `table` (entries, 2) holds u and du/dfraction
+    at equal fractions of the length, curve i being u in [i, i+1].
+    """
+
+    net: Array
+    table: Array
+    at: Array
+    color: Color = INK
+    radius: float = 3.0
+
+    def __post_init__(self) -> None:
+        _freeze(self)
+
+
+@dataclass(frozen=True)
 class ControlNet:
     """The control points of patches and the legs between them; drawn when the user asks."""
 
@@ -183,7 +221,8 @@ class Handles:
         return self.names[index] if self.names else f"point {index + 1}"
 
 
-Layer = Patches | IsoLines | Curves | Polylines | Dots | ControlNet | Label | Handles
+Stroked = IsoLines | Curves | Polylines | Dots | Parametric | Traced
+Layer = Patches | Stroked | ControlNet | Label | Handles
 
 
 @dataclass(frozen=True)
@@ -217,7 +256,7 @@ class Figure:
         subject = self.spaces[-1]
         patches = tuple(layer for layer in subject.layers if isinstance(layer, Patches))
         if not patches:
-            lines = (Curves, Polylines, Dots)
+            lines = (Curves, Polylines, Dots, Parametric, Traced)
             kept = tuple(layer for layer in subject.layers if isinstance(layer, lines))
             return Figure((replace(subject, layers=kept),))
         points = np.concatenate([sample_surface(layer.net) for layer in patches])
