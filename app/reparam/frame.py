@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from .gpu.painter import Painter, Panel
+from .compare import agree, blends_by_value, sides
+from .gpu.comparison import Split
+from .gpu.painter import UNITS, Painter, Panel
 from .gpu.targets import Target
 from .subject import Subject
 
@@ -19,6 +21,8 @@ def draw_subject(
 
     Raises what `Subject.figure` and `Painter.draw` raise.
     """
+    if subject.display.compare:
+        return _draw_compared(painter, subject, target, evaluator, plain)
     return painter.draw(
         subject.figure(),
         target,
@@ -27,3 +31,33 @@ def draw_subject(
         views=subject.views,
         plain=plain,
     )
+
+
+def _draw_compared(
+    painter: Painter, subject: Subject, target: Target, evaluator: str | None, plain: bool
+) -> list[Panel]:
+    """Both values of the compared parameter, first the right one; the left one's panels."""
+    left, right, name = sides(subject)
+    nets = (left.display.net, right.display.net)
+    figures = agree(left.figure(), right.figure(), nets)
+    panels = []
+    for side, figure in ((right, figures[1]), (left, figures[0])):
+        panels = painter.draw(
+            figure, target, side.display, evaluator=evaluator, views=subject.views, plain=plain
+        )
+        if side is right:
+            painter.comparison.keep(target)
+    display = subject.display
+    fading = 0.0 if blends_by_value(left, right, name) else display.blend
+    tags = (_tag(left, right, name, fading), f"{name} = {right.shown(name)}")
+    split = Split(panels[-1].region, display.divider, fading, *tags)
+    unit = 0.0 if plain else min(target.size) / UNITS
+    painter.comparison.lay_over(painter, target, split, unit)
+    return panels
+
+
+def _tag(left: Subject, right: Subject, name: str, fading: float) -> str:
+    """What stands left of the divider: the left value, or how far it has become the right one."""
+    if fading == 0.0:
+        return f"{name} = {left.shown(name)}"
+    return f"{name} = {left.shown(name)} → {right.shown(name)}, {100.0 * fading:.0f} %"

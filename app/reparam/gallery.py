@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -17,7 +18,8 @@ def plates() -> Iterator[tuple[str, Subject]]:
     for name in scene_names():
         for plate in load_scene(name).plates:
             subject = open_subject(name).assigned(plate)
-            yield "-".join([name, *(word.replace("=", "-") for word in plate)]), subject
+            words = [re.sub(r"[^\w.]+", "-", word) for word in plate]  # a name for every system
+            yield "-".join([name, *words]), subject
 
 
 def write_figures(folder: Path, size: tuple[int, int]) -> list[Path]:

@@ -52,7 +52,8 @@ class Subject:
         value = self.value(name)
         if isinstance(value, bool):
             return "on" if value else "off"
-        text = self.parameters()[name].text(value)
+        text = f"{value:.4g}" if isinstance(value, float) else self.parameters()[name].text(value)
+        text = text or "none"
         return text if len(text) <= 60 else f"{text[:57]}..."
 
     def changed(self, name: str, value: Any) -> Subject:

@@ -52,6 +52,7 @@ VARIANTS: list[tuple[tuple[str, ...], dict[str, Any]]] = [
     (("reach.vert",), {}),
     (("marker.vert", "marker.frag"), {}),
     (("label.vert", "label.frag"), {}),
+    (("label.vert", "compare.frag"), {}),
 ]
 MARKED: tuple[tuple[str, ...], dict[str, Any]] = (("marker.vert", "marker.frag"), {})
 

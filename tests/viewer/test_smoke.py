@@ -5,12 +5,13 @@ from __future__ import annotations
 import shlex
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
-from driver import SIZE, Window, virtual_screen
+from driver import SECONDS, SIZE, Window, virtual_screen
 from PIL import Image
 
 from reparam.gpu.painter import arrange
@@ -107,6 +108,26 @@ def test_what_is_kept_draws_the_same_picture_without_a_window(
         window.type_line("Return", "checks = 0", "expected a whole number from 1 to 256")
         window.xdotool_key("Escape")  # leaves the line, not the window
         assert np.array_equal(window.screenshot(), picture)
+        assert window.close() == 0
+    finally:
+        window.process.kill()
+
+
+def test_the_divider_is_dragged(display: str, tmp_path: Path, studio: Studio) -> None:
+    window = Window(display, tmp_path)
+    subject = open_subject("fig5").changed("compare", "texture=identity|r")
+    try:
+        window.press("x", "compare = texture=identity|r")
+        assert np.array_equal(window.screenshot(), studio.draw(subject, SIZE))
+        window.drag((SIZE[0] / 2 + 2, SIZE[1] * 0.7), (-82.0, 10.0), "divider = 0.25")
+        moved = subject.changed("divider", 0.25)
+        assert np.array_equal(window.screenshot(), studio.draw(moved, SIZE))
+        window.press("ctrl+z", "undone: divider")
+        window.press("b", "blend to 1")
+        until = time.monotonic() + SECONDS
+        faded = studio.draw(subject.changed("blend", 1.0), SIZE)
+        while not np.array_equal(window.screenshot(), faded):
+            assert time.monotonic() < until
         assert window.close() == 0
     finally:
         window.process.kill()

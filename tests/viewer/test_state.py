@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -312,3 +313,79 @@ def test_time_alone_changes_nothing() -> None:
         state.advance(now)
         assert not state.changed
         assert not state.moving
+
+
+def test_comparing_and_blending() -> None:
+    state = opened("fig5", "texture=r")
+    state.toggle_comparison()
+    assert value(state, "compare") == "texture=identity|r"
+    assert (value(state, "divider"), value(state, "texture")) == (0.5, "r")
+    state.toggle_comparison()
+    assert value(state, "compare") == ""
+    state.blend()
+    assert (value(state, "compare"), value(state, "divider")) == ("texture=identity|r", 1.0)
+    for now in np.linspace(0.0, 4.0, 100):
+        state.advance(float(now))
+    assert (value(state, "blend"), state.moving) == (1.0, False)
+    state.blend()
+    for now in np.linspace(4.0, 8.0, 100):
+        state.advance(float(now))
+    assert value(state, "blend") == 0.0
+    state.next_texture()  # the compared parameter itself: it shall be seen
+    assert value(state, "compare") == ""
+    state.toggle_comparison()
+    state.show_figure(4)
+    assert value(state, "compare") == ""
+
+
+def test_comparing_with_before_the_last_change() -> None:
+    state = opened()
+    state.compare_last_change()
+    assert "nothing to compare" in state.notice
+    state.next_checks()
+    state.toggle_net()
+    state.compare_last_change()  # the control net is no parameter of the scene
+    assert "nothing to compare" in state.notice
+    state.undo()
+    state.compare_last_change()
+    assert value(state, "compare") == "checks=8|16"
+
+
+def test_each_change_of_parameters_is_undone_and_made_again() -> None:
+    state = opened("fig5", "morph=0.25")
+    seen = [state.subject]
+    for press in (state.next_texture, state.next_checks, state.toggle_net, state.glide):
+        press()
+        if state.moving:
+            run(state, 0.0, 1.0)
+        seen.append(state.subject)
+    state.play()
+    run(state, 1.0, 0.5)  # frames of an animation are no steps
+    state.play()
+    for subject in reversed(seen[:-1]):
+        state.undo()
+        assert state.subject is subject
+    state.undo()
+    assert state.notice == "nothing to undo"
+    for before, subject in pairwise(seen[:4]):
+        assert state.subject is before
+        state.redo()
+        assert state.subject is subject
+    state.redo()
+    assert state.subject.value("morph") == seen[-1].value("morph")
+    state.redo()
+    assert state.notice == "nothing to redo"
+    state.undo()
+    state.next_texture()
+    state.redo()
+    assert state.notice == "nothing to redo"
+
+
+def test_undo_returns_to_the_scene_of_the_change() -> None:
+    state = opened()
+    state.next_texture()
+    state.show_figure(4)
+    state.undo()
+    assert (state.subject.scene.name, value(state, "texture")) == ("fig5", "identity")
+    state.show_figure(4)
+    assert state.subject.scene.name == "fig4"

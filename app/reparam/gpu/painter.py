@@ -33,6 +33,7 @@ from .surfaces import Surfaces
 from .targets import Target
 
 if TYPE_CHECKING:
+    from .comparison import Comparison
     from .labels import Labels
     from .strokes import Strokes
 
@@ -148,6 +149,13 @@ class Painter:
         from .strokes import Strokes
 
         return Strokes(self.ctx, self.programs, self.evaluation)
+
+    @cached_property
+    def comparison(self) -> Comparison:
+        """Two pictures in one; few ask for it."""
+        from .comparison import Comparison
+
+        return Comparison(self.ctx)
 
     @cached_property
     def labels(self) -> Labels:

@@ -16,4 +16,7 @@ class Display:
     wireframe: Annotated[bool, "the triangles' edges over the surface"] = False
     net: Annotated[bool, "the control net"] = False
     handles: Annotated[bool, "the points that a hand can drag in the window"] = False
+    compare: Annotated[str, "two values of a parameter in one picture, as texture=identity|r"] = ""
+    divider: Annotated[float, Range(0, 1, 0.1), "where the second one begins"] = 0.5
+    blend: Annotated[float, Range(0, 1, 0.1), "how far the first one has faded into it"] = 0.0
     samples: Annotated[int, Range(0, 16), "samples a pixel; 0: the most up to 8"] = 0

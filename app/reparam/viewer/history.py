@@ -49,6 +49,11 @@ class History:
         if gesture is not None and self._done and self._done[-1].gesture is gesture:
             self._done[-1].after = after
 
+    @property
+    def last(self) -> Step | None:
+        """The step that `undo` would undo."""
+        return self._done[-1] if self._done else None
+
     def undo(self) -> Step | None:
         """The last step, now undone; None if there is none."""
         return self._move(self._done, self._undone)

@@ -54,6 +54,15 @@ GROUPS: tuple[tuple[str, tuple[Key | Gesture, ...]], ...] = (
         ),
     ),
     (
+        "comparing",
+        (
+            Key(("X",), "two values in one picture: the identity, and r", "toggle_comparison"),
+            Key(("Shift+X",), "before and after the last change", "compare_last_change"),
+            Key(("B",), "blend one slowly into the other", "blend"),
+            Gesture(("drag the divider",), "see more of one or of the other"),
+        ),
+    ),
+    (
         "changing",
         (
             Gesture(("drag a point",), "change the scene; with Shift in steps"),

@@ -6,11 +6,12 @@ from typing import Any
 
 import glfw
 
-from ..gpu.painter import Panel
+from ..gpu.painter import Panel, Region
 from .hand import Hand
 from .state import State
 
 WHEEL = 1.15  # zoom a notch of the wheel
+DIVIDER = 6.0  # pixels (of content scale 1) beside the divider that take hold of it
 DEGREES_A_WINDOW = 200.0  # of orbit, dragging across the window's shorter side
 
 
@@ -24,6 +25,9 @@ class Mouse:
         self._units: dict[str, float] = {}  # model units a pixel, by the space, at zoom 1
         self._at: tuple[float, float] = glfw.get_cursor_pos(window)  # as the events tell it
         self._held: tuple[str, bool] | None = None  # a space's name, and whether it is only moved
+        self._divides: Region | None = None  # the region whose divider is dragged
+        self._cursors: dict[int | None, Any] = {}
+        self._shape: int | None = None
         self._unsettled = False  # what the hand has to hear of, once a frame
         self.hand = Hand(state)
         self.inside = bool(glfw.get_window_attrib(window, glfw.HOVERED))
@@ -64,12 +68,42 @@ class Mouse:
         if not self._unsettled:
             return
         self._unsettled = False
-        if self.hand.held:
+        if self._divides is not None:
+            self._move_divider(self._divides)
+        elif self.hand.held:
             shift = (glfw.KEY_LEFT_SHIFT, glfw.KEY_RIGHT_SHIFT)
             snap = any(glfw.get_key(self._window, key) == glfw.PRESS for key in shift)
             self.hand.drag(*self._pixel(), self.scale(), snap)
         elif self._held is None:
             self.hand.point_at(*self._pixel(), self.scale())
+        self._show_cursor()
+
+    def _move_divider(self, region: Region) -> None:
+        share = (self._pixel()[0] - region.left) / region.width
+        self._state.change({"divider": round(min(1.0, max(0.0, share)), 4)})
+
+    def _divider_here(self) -> Region | None:
+        """The region whose divider is under the mouse."""
+        display = self._state.subject.display
+        panel = self._panel_here()
+        if not display.compare or panel is None or panel is not self._panels[-1]:
+            return None
+        line = panel.region.left + display.divider * panel.region.width
+        return panel.region if abs(self._pixel()[0] - line) <= DIVIDER * self.scale() else None
+
+    def _show_cursor(self) -> None:
+        """A shape that says what pressing the button here takes hold of."""
+        shape = None
+        if self.hand.over is not None or self.hand.held:
+            shape = glfw.HAND_CURSOR
+        elif self._divides is not None or self._divider_here() is not None:
+            shape = glfw.HRESIZE_CURSOR
+        if shape != self._shape:
+            self._shape = shape
+            if shape is not None and shape not in self._cursors:
+                self._cursors[shape] = glfw.create_standard_cursor(shape)
+            cursor: Any = self._cursors.get(shape)
+            glfw.set_cursor(self._window, cursor)
 
     def scale(self) -> float:
         """Framebuffer pixels for one at content scale 1."""
@@ -82,9 +116,17 @@ class Mouse:
     def _on_button(self, _: Any, button: int, action: int, mods: int) -> None:
         self.settle()  # where the mouse was before
         self.hand.release()
+        if self._divides is not None:
+            self._divides = None
+            self._state.end_gesture()
+            self._state.say(f"divider = {self._state.subject.shown('divider')}")
         if button == glfw.MOUSE_BUTTON_LEFT and action == glfw.PRESS:
             self._unsettled = True
             if self.hand.take(*self._pixel(), self.scale()):
+                return
+            self._divides = self._divider_here()
+            if self._divides is not None:
+                self._state.begin_gesture()
                 return
         panel = self._panel_here() if action == glfw.PRESS else None
         moves = button != glfw.MOUSE_BUTTON_LEFT or bool(mods & glfw.MOD_SHIFT)

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ..compare import comparison_text, default_comparison
 from ..errors import ReparamError
 from ..geometry.camera import View
 from ..scenes.registry import scene_names
@@ -20,6 +21,7 @@ CHECKS = (2, 4, 8, 16, 32)
 NOTICE_SECONDS = 2.5
 ANIMATION_SECONDS = 3.0  # from one end to the other
 GLIDE_SECONDS = 0.7
+BLEND_SECONDS = 3.0
 
 
 @dataclass
@@ -200,21 +202,62 @@ class State:
 
     def glide(self) -> None:
         """Morph to the other end."""
-        if not self._has("morph"):
-            return
-        start, phase = self._now, _unsmooth(self._fraction("morph"))
-        end = 0.0 if phase >= 0.5 else 1.0
+        if self._has("morph"):
+            self._glide("morph", GLIDE_SECONDS)
+
+    def _glide(self, name: str, seconds: float) -> None:
+        """Move a parameter to its farther end: one step, whatever is seen on the way."""
+        start, phase = self._now, _unsmooth(self._fraction(name))
+        interval = self.subject.parameters()[name].range
+        assert interval is not None
+        end = interval.low if phase >= 0.5 else interval.high
 
         def motion(now: float) -> float | None:
-            way = (now - start) / GLIDE_SECONDS
-            if self._fraction("morph") == end:
+            way = (now - start) / seconds
+            if self.subject.value(name) == end:
                 return None
-            return self._at("morph", min(1.0, phase + way) if end else max(0.0, phase - way))
+            up = end == interval.high
+            return self._at(name, min(1.0, phase + way) if up else max(0.0, phase - way))
 
         before = Moment(self.subject, dict(self.views))
-        self._history.note(before, Moment(self.subject.changed("morph", end), before.views))
-        self._motion = ("morph", motion)
-        self.say(f"morph to {end:.0f}")
+        self._history.note(before, Moment(self.subject.changed(name, end), before.views))
+        self._motion = (name, motion)
+        self.say(f"{name} to {end:g}")
+
+    # Comparing ------------------------------------------------------------------------------
+
+    def toggle_comparison(self) -> None:
+        """Two values of the scene's first parameter side by side, or one picture again."""
+        if self.subject.display.compare:
+            self.change({"compare": "", "divider": 0.5, "blend": 0.0})
+            self.say("compare = none")
+        else:
+            self._compare(default_comparison(self.subject), 0.5)
+
+    def compare_last_change(self) -> None:
+        """The picture before the last change of the scene, and after it."""
+        step = self._history.last
+        text = ""
+        if step is not None and step.after.subject.scene is self.subject.scene:
+            before, after = step.before.subject, step.after.subject
+            for name in changed_names(before, after):
+                if name in self.subject.values and not text:
+                    text = comparison_text(after, name, before.value(name), after.value(name))
+        self._compare(text, 0.5)
+
+    def blend(self) -> None:
+        """Blend the left picture into the right one, or back; without a comparison all of it."""
+        if not self.subject.display.compare:
+            self._compare(default_comparison(self.subject), 1.0)
+        if self.subject.display.compare:
+            self._glide("blend", BLEND_SECONDS)
+
+    def _compare(self, text: str, divider: float) -> None:
+        if not text:
+            self.say(f"{self.subject.title}: there is nothing to compare")
+            return
+        self.change({"compare": text, "divider": divider, "blend": 0.0})
+        self.say(f"compare = {self.subject.shown('compare')}")
 
     # Text -----------------------------------------------------------------------------------
 
@@ -271,6 +314,8 @@ class State:
         subject = self.subject
         for name, value in changes.items():
             subject = subject.changed(name, value)
+            if subject.display.compare.startswith(f"{name}="):
+                subject = subject.changed("compare", "")  # the hand wants to see this value
         self._replace(subject)
 
     def begin_gesture(self) -> None:
@@ -368,7 +413,7 @@ class State:
         if name == here:
             return
         self._motion = None
-        display = self.subject.display
+        display = replace(self.subject.display, compare="")  # the next scene has other parameters
         self._visited[here] = (self.subject, self.views)
         if name in self._visited:
             subject, self.views = self._visited[name]
@@ -383,8 +428,14 @@ def difference(before: Subject, after: Subject) -> str:
     """Names and new values of the parameters that differ."""
     if before.scene.name != after.scene.name:
         return after.scene.name
-    names = [n for n in after.parameters() if not np.array_equal(before.value(n), after.value(n))]
+    names = changed_names(before, after)
     return ", ".join(f"{name} = {after.shown(name)}" for name in names)
+
+
+def changed_names(before: Subject, after: Subject) -> list[str]:
+    """The parameters of a scene that differ."""
+    names = after.parameters()
+    return [name for name in names if not np.array_equal(before.value(name), after.value(name))]
 
 
 def _unsmooth(value: float) -> float:

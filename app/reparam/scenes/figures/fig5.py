@@ -41,7 +41,7 @@ EDITED = "r(u, v), bi-quadratic, with its control points moved"
     "One patch, one checkerboard, two texture maps",
     figure=5,
     animates="morph",
-    plates=(("texture=identity",), ("texture=r",)),
+    plates=(("texture=identity",), ("texture=r",), ("compare=texture=identity|r",)),
 )
 def fig5(
     texture: Annotated[Literal["identity", "r"], "the map that attaches the picture"] = "identity",
