@@ -11,8 +11,10 @@ from typing import Any
 from .errors import FileFormatError, UsageError
 from .files.saved import is_saved
 from .geometry.camera import View
+from .scenes.cursor import Cursor, is_linked, marked, parse, within
 from .scenes.display import Display
 from .scenes.layers import Figure
+from .scenes.linked import linked
 from .scenes.parameters import Parameter, find, parameters_of
 from .scenes.registry import Scene, file_scene, load_scene, scene_names
 from .scenes.remember import remember
@@ -33,11 +35,27 @@ class Subject:
     views: Mapping[str, View] = field(default_factory=dict)  # of its spaces, by name
 
     def figure(self) -> Figure:
-        """The picture for these values. Raises UsageError if the scene refuses them."""
+        """The picture for these values, linked and with the cursor as its display says.
+
+        Raises UsageError if the scene refuses the values.
+        """
         try:
-            return _figure(self.scene, self.values, self.data)
+            return marked(self._unmarked(), parse(self.display.cursor))
         except ValueError as fault:
             raise UsageError(str(fault)) from fault
+
+    def pointed(self, cursor: Cursor) -> Subject:
+        """The same with the cursor moved there, if it is to be seen. Raises as `figure` does."""
+        try:
+            figure = self._unmarked()
+        except ValueError as fault:
+            raise UsageError(str(fault)) from fault
+        if not (self.display.cursor or is_linked(figure)):
+            return self
+        return self.changed("cursor", within(figure, cursor).text)
+
+    def _unmarked(self) -> Figure:
+        return _figure(self.scene, self.values, self.data, self.display.linked)
 
     def parameters(self) -> dict[str, Parameter]:
         """The scene's parameters, then the display's."""
@@ -76,8 +94,11 @@ class Subject:
 
 
 @remember
-def _figure(scene: Scene, values: Mapping[str, Any], data: Mapping[str, Any]) -> Figure:
-    return scene({**values, **data})
+def _figure(
+    scene: Scene, values: Mapping[str, Any], data: Mapping[str, Any], beside: bool
+) -> Figure:
+    figure = scene({**values, **data})
+    return linked(figure) if beside else figure
 
 
 def without_bad_pictures(subject: Subject) -> tuple[Subject, list[str]]:

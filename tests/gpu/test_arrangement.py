@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reparam.gpu.painter import Region, regions
+from reparam.gpu.painter import regions
+from reparam.gpu.region import Region
 from reparam.scenes.layers import Space, plane
 
 BOX = plane(0.0, 0.0, 1.0, 1.0)

@@ -14,6 +14,8 @@ import pytest
 from driver import SECONDS, SIZE, Window, virtual_screen
 from PIL import Image
 
+from reparam.geometry.evaluate import evaluate, project
+from reparam.geometry.inverse import invert
 from reparam.gpu.painter import arrange
 from reparam.snapshot import Studio
 from reparam.subject import open_subject
@@ -128,6 +130,33 @@ def test_the_divider_is_dragged(display: str, tmp_path: Path, studio: Studio) ->
         faded = studio.draw(subject.changed("blend", 1.0), SIZE)
         while not np.array_equal(window.screenshot(), faded):
             assert time.monotonic() < until
+        assert window.close() == 0
+    finally:
+        window.process.kill()
+
+
+def test_the_mouse_marks_one_point_in_three_spaces(
+    display: str, tmp_path: Path, studio: Studio
+) -> None:
+    size = (780, 360)
+    window = Window(display, tmp_path, "fig6", "--size", f"{size[0]}x{size[1]}")
+    subject = open_subject("fig6")
+    panels = {p.space.name: p for p in arrange(subject.figure(), size, {}, False, False)}
+    try:
+        for name, at in (("physical", (0.3, 0.7)), ("domain", (0.6, 0.25)), ("texture", (0, 1))):
+            region, camera, net = panels[name].region, panels[name].camera, panels[name].space.map
+            assert net is not None
+            x, y = camera.pixels(project(evaluate(net, *at)), region.width, region.height)
+            mouse = (round(x + region.left), round(size[1] - y - region.bottom))
+            window.point(mouse)
+            pixel = np.array([mouse[0] - region.left, size[1] - mouse[1] - region.bottom])
+            u, v = invert(net, camera.in_view(pixel, region.width, region.height))
+            assert (u, v) == pytest.approx(at, abs=0.05)
+            expected = studio.draw(subject.changed("cursor", f"{u},{v}"), size)
+            assert np.array_equal(window.screenshot(), expected), name
+        window.press("d", "its domain is there already")
+        window.press("5", "fig5: ")
+        window.press("d", "linked = on")
         assert window.close() == 0
     finally:
         window.process.kill()

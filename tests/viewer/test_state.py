@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from reparam.geometry.camera import View, frame
+from reparam.scenes.cursor import Cursor
 from reparam.scenes.registry import scene_names
 from reparam.subject import open_subject
 from reparam.viewer.keys import KEYS
@@ -88,6 +89,28 @@ def test_evaluator() -> None:
     alone.next_evaluator()
     assert alone.evaluator == "vertex"
     assert "the only one here" in alone.notice
+
+
+def test_linked_is_for_what_has_patches_and_is_not_linked_by_itself() -> None:
+    state = opened()
+    assert presses(state, state.toggle_linked, "linked", 2) == [True, False]
+    state.show_figure(6)
+    state.toggle_linked()
+    assert value(state, "linked") is False
+    assert "there already" in state.notice
+
+
+def test_the_cursor_is_no_step_to_undo() -> None:
+    state = opened("fig6")
+    state.changed = False
+    state.point(Cursor(0.25, 0.75))
+    assert state.changed
+    state.changed = False
+    state.point(Cursor(0.25, 0.75))
+    assert not state.changed
+    state.undo()
+    assert state.notice == "nothing to undo"
+    assert state.subject == open_subject("fig6")
 
 
 def test_help() -> None:

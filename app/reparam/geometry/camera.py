@@ -74,6 +74,12 @@ class Camera:
         right, up = (pixel - self.pixels(point, width, height)) * across
         return np.asarray(point + right * self.rotation[0] + up * self.rotation[1])
 
+    def in_view(self, pixel: Array, width: float, height: float) -> Array:
+        """Coordinates (2,) to the right and up, `rotation[:2] @ point`, of what a pixel shows."""
+        clip = 2.0 * pixel / np.array([width, height]) - 1.0
+        half = np.array([self.half_width, self.half_height])
+        return np.asarray(self.rotation[:2] @ self.center + clip * half)
+
 
 def orbit_rotation(azimuth: float, elevation: float) -> Array:
     """Rows: right, up, towards the eye, for an eye at these angles (degrees), z up."""

@@ -32,6 +32,10 @@ ALIGNED_IDENTITY = control_net([[(-1, 1), (1, 1)], [(-1, -1), (1, -1)]])
 """(V, -U), bilinear: a net (2, 2, 4). The square itself, seen the way r is."""
 
 
+DOMAIN = control_net([[(0, 1), (1, 1)], [(0, 0), (1, 0)]])
+"""(v, 1-u): the parameter square on the page, u running down and v right as they do in r."""
+
+
 def morph(net: Array, weight: float) -> Array:
     """The map (1 - weight) identity + weight net, with the net's own degrees (at least 1).
 

@@ -13,7 +13,8 @@ from .labels import SMALLEST, measure
 from .targets import Target
 
 if TYPE_CHECKING:
-    from .painter import Painter, Region
+    from .painter import Painter
+    from .region import Region
 
 LINE = 1.2  # figure units, of the divider
 TAG = 15.0

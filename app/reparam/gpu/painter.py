@@ -19,8 +19,10 @@ from ..scenes import palette
 from ..scenes.display import Display
 from ..scenes.layers import (
     ControlNet,
+    Dots,
     Figure,
     Handles,
+    IsoLines,
     Label,
     Layer,
     Patches,
@@ -29,6 +31,7 @@ from ..scenes.layers import (
 from .context import Capabilities, capabilities
 from .evaluation import Evaluation
 from .programs import Programs
+from .region import Region
 from .surfaces import Surfaces
 from .targets import Target
 
@@ -43,20 +46,7 @@ UNITS = 512.0  # figure units along the shorter side of a picture
 CAPTION_SIZE = 17.0
 CAPTION_LINE = 23.0
 PADDING = 10.0
-
-
-@dataclass(frozen=True)
-class Region:
-    """A space's part of the picture, in pixels from the lower left."""
-
-    left: int
-    bottom: int
-    width: int
-    height: int
-
-    def contains(self, x: float, y: float) -> bool:
-        """Whether the pixel is in it."""
-        return 0 <= x - self.left < self.width and 0 <= y - self.bottom < self.height
+LIFT = 5e-4  # of normalised depth, between strokes that lie on one another
 
 
 @dataclass(frozen=True)
@@ -71,7 +61,7 @@ class Panel:
 def arrange(
     figure: Figure, size: tuple[int, int], views: Mapping[str, View], plain: bool, net: bool
 ) -> list[Panel]:
-    """The spaces where `regions` puts them, above the caption.
+    """The spaces where `regions` puts them, less their margins, above the caption.
 
     With `net` the control nets must be seen too.
     """
@@ -80,9 +70,11 @@ def arrange(
     foot = 0 if plain else round((len(figure.caption) * CAPTION_LINE + PADDING) * unit)
     foot = min(foot, height - 1)
     panels = []
-    for space, region in zip(
-        figure.spaces, regions(figure.spaces, width, height - foot, foot), strict=True
-    ):
+    whole = regions(figure.spaces, width, height - foot, foot)
+    for space, region in zip(figure.spaces, whole, strict=True):
+        alike = zip(figure.spaces, whole, strict=True)
+        narrowest = min(each.width for other, each in alike if other.width == space.width)
+        region = region.inside(figure.spaces, unit, narrowest)
         points = extent(space, net)
         view = views.get(space.name, View())
         camera = frame(points, region.width, region.height, view, space.spatial)
@@ -192,7 +184,7 @@ class Painter:
         for panel in panels:
             self._draw_space(panel, target, display, chosen, unit)
         if not plain:
-            self._draw_caption(figure, target.size, unit)
+            self._draw_words(figure, panels, target.size, unit)
         self._end_frame()
         target.resolve()
         return panels
@@ -239,6 +231,8 @@ class Painter:
                 pass
             case Label() | Handles():
                 pass
+            case IsoLines() | Dots():
+                self.strokes.draw(layer, camera.nearer(LIFT * layer.lift), unit)
             case _:
                 self.strokes.draw(layer, camera, unit)
 
@@ -254,7 +248,14 @@ class Painter:
             widest=0.96 * region.width,
         )  # fmt: skip
 
-    def _draw_caption(self, figure: Figure, size: tuple[int, int], unit: float) -> None:
+    def _draw_words(
+        self, figure: Figure, panels: list[Panel], size: tuple[int, int], unit: float
+    ) -> None:
+        """Titles and notes of the spaces, and the caption."""
+        if any(space.title or space.notes for space in figure.spaces):
+            from .margins import draw_margins
+
+            draw_margins(self.labels, panels, size, unit)
         for i, line in enumerate(reversed(figure.caption)):
             at = (size[0] / 2, (PADDING + (i + 0.5) * CAPTION_LINE) * unit)
             self.labels.text(

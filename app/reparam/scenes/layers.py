@@ -79,6 +79,7 @@ class IsoLines:
     width: float = 1.0
     span: tuple[float, float] = (0.0, 1.0)  # of the other parameter; beyond [0,1] extrapolates
     arrow: bool = False
+    lift: int = 0  # of strokes in one place in space the higher one is seen
 
     def __post_init__(self) -> None:
         _freeze(self)
@@ -123,6 +124,7 @@ class Dots:
     at: Array
     color: Color = INK
     radius: float = 3.0
+    lift: int = 0
 
     def __post_init__(self) -> None:
         _freeze(self)
@@ -236,6 +238,9 @@ class Space:
     width: float = 1.0  # of its column, beside the other columns
     height: float = 1.0  # beside the others in its column
     below: bool = False  # in the column of the space before it, not in one of its own
+    title: str = ""  # above it; neither pan nor zoom moves it
+    notes: tuple[tuple[str, str], ...] = ()  # beneath it, names and values in two columns
+    map: Array | None = None  # the net by which the parameter square lands here: linked.py
 
     def __post_init__(self) -> None:
         _freeze(self)
@@ -260,7 +265,8 @@ class Figure:
             kept = tuple(layer for layer in subject.layers if isinstance(layer, lines))
             return Figure((replace(subject, layers=kept),))
         points = np.concatenate([sample_surface(layer.net) for layer in patches])
-        return Figure((replace(subject, layers=patches, bounds=points),))
+        bare = replace(subject, layers=patches, bounds=points, title="", notes=())
+        return Figure((bare,))
 
 
 def including(bounds: Array, net: Array) -> Array:

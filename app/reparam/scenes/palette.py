@@ -17,6 +17,7 @@ DOMAIN = rgb("E8F1F8")  # the parameter square
 IMAGE = rgb("FBF3E2")  # its image
 ALONG_U = rgb("0072B2")  # blue: where u runs
 ALONG_V = rgb("D55E00")  # vermillion: where v runs
+CURSOR = rgb("009E73")  # bluish green: the point looked at, in every space
 CONTROL_NET = rgb("222222")
 SURFACE = rgb("56B4E9")  # sky blue: a surface without a picture
 PLAIN_GROUND = rgb("0000FF")  # far from the checkers and their mixtures, in colour and in grey

@@ -36,6 +36,14 @@ class PictureFile:
 
 
 @dataclass(frozen=True)
+class Form:
+    """Marks a text that must have a form: what is expected, in words, and whether a text is so."""
+
+    expected: str
+    valid: Callable[[str], bool]
+
+
+@dataclass(frozen=True)
 class Points:
     """Marks an array of numbers of that shape; None is a length that the user chooses.
 
@@ -88,11 +96,14 @@ class Parameter:
     help: str = ""
     picture: bool = False  # the name of a picture file
     points: Points | None = None  # an array
+    form: Form | None = None  # of a text
 
     def expected(self) -> str:
         """The values it takes, in words."""
         if self.points:
             return self.points.expected()
+        if self.form:
+            return self.form.expected
         if self.choices:
             return " or ".join(self.choices)
         if self.type is bool:
@@ -162,7 +173,9 @@ class Parameter:
                 message = f"{self.name}: expected {self.expected()}, found {fault}"
                 raise ValueError(message) from None
         allowed = (
-            value in self.choices
+            self.form.valid(value)
+            if self.form
+            else value in self.choices
             if self.choices
             else self.range is None
             or (math.isfinite(value) and self.range.low <= value <= self.range.high)
@@ -215,7 +228,8 @@ def _parameter(name: str, hint: Any, default: Value) -> Parameter | None:
     interval = next((extra for extra in extras if isinstance(extra, Range)), None)
     text = next((extra for extra in extras if isinstance(extra, str)), "")
     picture = any(isinstance(extra, PictureFile) for extra in extras)
-    return Parameter(name, kind, default, choices, interval, text, picture)
+    form = next((extra for extra in extras if isinstance(extra, Form)), None)
+    return Parameter(name, kind, default, choices, interval, text, picture, form=form)
 
 
 def find(parameters: Mapping[str, Parameter], name: str) -> Parameter:

@@ -38,6 +38,7 @@ GROUPS: tuple[tuple[str, tuple[Key | Gesture, ...]], ...] = (
     (
         "how it is drawn",
         (
+            Key(("D",), "the domain and the texture beside the picture", "toggle_linked"),
             Key(("N",), "control net", "toggle_net"),
             Key(("W",), "wireframe", "toggle_wireframe"),
             Key(("+", "-"), "tessellation level, finer and coarser", "change_level", (1, -1)),
@@ -47,6 +48,7 @@ GROUPS: tuple[tuple[str, tuple[Key | Gesture, ...]], ...] = (
     (
         "looking",
         (
+            Gesture(("point",), "mark the point in all linked spaces"),
             Gesture(("drag",), "move the picture; turn a spatial surface"),
             Gesture(("right drag",), "move a spatial surface"),
             Gesture(("wheel",), "zoom at the mouse"),

@@ -6,8 +6,10 @@ from typing import Any
 
 import glfw
 
-from ..gpu.painter import Panel, Region
+from ..gpu.painter import Panel
+from ..gpu.region import Region
 from .hand import Hand
+from .pointer import Pointer
 from .state import State
 
 WHEEL = 1.15  # zoom a notch of the wheel
@@ -30,6 +32,7 @@ class Mouse:
         self._shape: int | None = None
         self._unsettled = False  # what the hand has to hear of, once a frame
         self.hand = Hand(state)
+        self._pointer = Pointer(state)
         self.inside = bool(glfw.get_window_attrib(window, glfw.HOVERED))
         glfw.set_cursor_pos_callback(window, self._on_move)
         glfw.set_mouse_button_callback(window, self._on_button)
@@ -76,6 +79,7 @@ class Mouse:
             self.hand.drag(*self._pixel(), self.scale(), snap)
         elif self._held is None:
             self.hand.point_at(*self._pixel(), self.scale())
+            self._pointer.point_at(self._panels, *self._pixel())
         self._show_cursor()
 
     def _move_divider(self, region: Region) -> None:

@@ -12,6 +12,8 @@ import numpy as np
 from ..compare import comparison_text, default_comparison
 from ..errors import ReparamError
 from ..geometry.camera import View
+from ..scenes.cursor import Cursor, is_linked
+from ..scenes.linked import can_link
 from ..scenes.registry import scene_names
 from ..subject import Subject, open_subject, scene_subject
 from .history import History, Moment
@@ -49,6 +51,7 @@ class State:
         self.evaluators = evaluators
         self.evaluator = evaluator
         self.views: dict[str, View] = dict(subject.views)
+        self.cursor: Cursor | None = None  # where the mouse put it; not a step that is undone
         self.help = False
         self.changed = True
         self.refresh = False
@@ -65,7 +68,8 @@ class State:
     def snapshot(self) -> Subject:
         """All that the picture is made from: the subject, seen as it is now."""
         looked_at = {name: view for name, view in self.views.items() if view != View()}
-        return replace(self.subject, views=looked_at)
+        subject = replace(self.subject, views=looked_at)
+        return subject if self.cursor is None else subject.pointed(self.cursor)
 
     # Time -----------------------------------------------------------------------------------
 
@@ -134,6 +138,22 @@ class State:
         alone = " (the only one here: tessellation needs OpenGL 4.0)"
         self.changed = True
         self.say(f"evaluator = {self.evaluator}{alone if len(self.evaluators) == 1 else ''}")
+
+    def toggle_linked(self) -> None:
+        """Domain and texture beside the picture, or not."""
+        figure = self.subject.figure()
+        if not can_link(figure):
+            self.say(f"{self.subject.title}: has no patch whose domain could be shown")
+        elif is_linked(figure) and not self.subject.display.linked:
+            self.say(f"{self.subject.title}: its domain is there already")
+        else:
+            self._cycle("linked")
+
+    def point(self, cursor: Cursor) -> None:
+        """The cursor is here now, in all linked spaces."""
+        if cursor != self.cursor:
+            self.cursor = cursor
+            self.changed = True
 
     def toggle_help(self) -> None:
         """The list of keys, on or off."""

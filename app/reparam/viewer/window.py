@@ -240,6 +240,7 @@ class Viewer:
 
     def screenshot(self, times: int = 1) -> None:
         """The frame, without what the window adds, into the next free file of the folder."""
+        self._mouse.settle()
         if self.state.changed:
             self._draw()  # what a key or the mouse did just now belongs to it
         if self._target is None:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...geometry import planar_maps
 from ...geometry.net import control_net
-from ...geometry.planar_maps import R
+from ...geometry.planar_maps import DOMAIN, R
 from .. import palette
 from ..claims import Claim
 from ..directions import directions
@@ -29,9 +29,6 @@ from ..layers import (
 )
 from ..parameters import Range
 from ..registry import scene
-
-DOMAIN = control_net([[(0, 1), (1, 1)], [(0, 0), (1, 0)]])
-"""The unit square seen the way r is: u runs down, v runs right, (u,v) -> (v, 1-u)."""
 
 
 @scene(
