@@ -105,7 +105,8 @@ def test_without_a_command_and_a_screen_the_figures_are_written(
     assert main([]) == 0
     folder = out.parent / "figures"
     assert str(folder) in capsys.readouterr().out
-    assert {name[:4] for name in (path.name for path in folder.glob("*.png"))} == set(scene_names())
+    stems = {path.stem.partition("-")[0] for path in folder.glob("*.png")}
+    assert stems == set(scene_names())
 
 
 def test_check(capsys: pytest.CaptureFixture[str]) -> None:

@@ -95,6 +95,20 @@ def parser() -> argparse.ArgumentParser:
     bench.add_argument("--json", action="store_true")
     bench.set_defaults(run=run_bench)
 
+    joining = commands.add_parser("joins", help="how patches meet: gaps, normal jumps, order G^k")
+    joining.add_argument("subject", metavar="SCENE|FILE")
+    joining.add_argument("--all", action="store_true", help="every join, not the worst alone")
+    joining.add_argument("--json", action="store_true", help="with r's derivatives along each edge")
+    joining.add_argument(
+        "--tolerance",
+        type=float,
+        default=1e-6,
+        metavar="T",
+        help="largest gap, by the body's size, and jump that count as none; 1e-6 if not given",
+    )
+    _add_assignments(joining)
+    joining.set_defaults(run=run_joins, views=[])
+
     doctor = commands.add_parser("doctor", help="what OpenGL is here, and what mends it")
     doctor.add_argument("--json", action="store_true")
     doctor.set_defaults(run=run_doctor)
@@ -103,14 +117,7 @@ def parser() -> argparse.ArgumentParser:
 
 def _add_drawing_options(command: argparse.ArgumentParser, size: str) -> None:
     command.add_argument("--size", default=size, metavar="WxH", help=f"pixels; {size} if not given")
-    command.add_argument(
-        "--set",
-        action="append",
-        default=[],
-        metavar="NAME=VALUE",
-        dest="assignments",
-        help="a parameter of the scene or of its display; `reparam list` names them",
-    )
+    _add_assignments(command)
     command.add_argument(
         "--view",
         action="append",
@@ -123,6 +130,17 @@ def _add_drawing_options(command: argparse.ArgumentParser, size: str) -> None:
         "--evaluator",
         choices=("vertex", "tessellation"),
         help="if not given: tessellation on a GPU that has it, vertex on software",
+    )
+
+
+def _add_assignments(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        dest="assignments",
+        help="a parameter of the scene or of its display; `reparam list` names them",
     )
 
 
@@ -248,6 +266,24 @@ def run_bench(options: argparse.Namespace) -> int:
         import json
 
         print(json.dumps([row.as_json() for row in rows], indent=2))
+    return 0
+
+
+def run_joins(options: argparse.Namespace) -> int:
+    """How patches meet, as a table or as JSON."""
+    from .join_report import patches_of, report, table
+
+    if not 0.0 < options.tolerance < 1.0:
+        raise UsageError(
+            f"--tolerance: expected a number between 0 and 1, found {options.tolerance:g}"
+        )
+    found = report(patches_of(_subject(options).figure()), options.tolerance)
+    if options.json:
+        import json
+
+        print(json.dumps(found))
+    else:
+        print(*table(options.subject, found, options.all), sep="\n")
     return 0
 
 

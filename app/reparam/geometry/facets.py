@@ -53,14 +53,14 @@ def compete(t: Topology) -> bool:
     return len(np.unique(moved)) < len(moved)
 
 
-def regular_facets(t: Topology) -> Sparse:
+def regular_facets(t: Topology, outer: bool = True) -> Sparse:
     """The map (vertices, vertices) that makes all irregular facets affinely regular, and for even
-    n their twists solvable."""
+    n their twists solvable; without `outer` it leaves all but the facets alone."""
     moved = np.zeros(t.vertex_count, bool)
     stencils = Stencils()
     for n, edges in irregular_facets(t).items():
         corners = _corners(t, edges)
-        rows = corners if _moves_outer(n) else corners[:, :1]
+        rows = corners if outer and _moves_outer(n) else corners[:, :1]
         moved[rows] = True
         rows = rows.reshape(len(rows), -1, 1)
         stencils.add(rows, corners.reshape(len(rows), 1, -1), regular_block(n)[: rows.shape[1]])

@@ -6,8 +6,9 @@ column, so that an edit touches no more than it must.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,6 +71,11 @@ def sparse(rows: Indices, columns: Indices, values: Array, shape: tuple[int, int
     places, entry = np.unique(rows * shape[1] + columns, return_inverse=True)
     sums = np.asarray(np.bincount(entry, values, len(places)), dtype=np.float64)
     return Sparse(places // shape[1], places % shape[1], sums, shape)
+
+
+def chain(stages: Iterable[Sparse]) -> Sparse:
+    """The map that applies these in turn, the first one first."""
+    return reduce(lambda first, stage: stage.after(first), stages)
 
 
 class Stencils:

@@ -36,7 +36,7 @@ from .cutting import corner_stencils, cut, with_phantoms
 from .facets import compete, irregular_facets, regular_facets, twist_block
 from .mesh import Topology
 from .net import Array
-from .sparse import Sparse, Stencils
+from .sparse import Sparse, Stencils, chain
 
 Indices = NDArray[np.intp]
 
@@ -72,7 +72,8 @@ class SurfaceSpline:
     picks: what neighbours share is one point, so patches meet bit for bit. Where facets are
     irregular `raised` leads on to the points of bicubic nets, picked by `index` (P, m, m). `facet`
     (P,) is the size of the irregular facet that a patch touches, 4 where it touches none; `face`
-    (P,) the face of the mesh that it belongs to; `cuts` the meshes between.
+    (P,) the face of the mesh that it belongs to. `whole` is the mesh with its phantoms, `cuts` are
+    the meshes after each cut.
     """
 
     stages: tuple[Sparse, ...]
@@ -81,13 +82,13 @@ class SurfaceSpline:
     index: Indices
     facet: Indices
     face: Indices
+    whole: Topology
     cuts: tuple[Topology, ...]
 
     @cached_property
     def stencils(self) -> Sparse:
         """All stages as one map: (points of the nets of one degree, vertices)."""
-        stages = self.stages if self.raised is None else (*self.stages, self.raised)
-        return reduce(lambda first, stage: stage.after(first), stages)
+        return chain(self.stages if self.raised is None else (*self.stages, self.raised))
 
     def nets(self, vertices: Array) -> Array:
         """The control nets (P, m, m, 4) over vertices (V, 3): one degree, 2 or 3, for all."""
@@ -95,7 +96,7 @@ class SurfaceSpline:
 
     def own_nets(self, vertices: Array) -> list[Array]:
         """The nets in their own degrees: (3, 3, 4), or (4, 4, 4) at irregular facets."""
-        low = _with_weights(reduce(lambda points, stage: stage @ points, self.stages, vertices))
+        low = _with_weights(reduce(_applied, self.stages, vertices))
         high, irregular = self.nets(vertices), self.facet != 4
         pairs = zip(low[self.quadratic], high, irregular, strict=True)
         return [cubic if bent else quadratic for quadratic, cubic, bent in pairs]
@@ -103,7 +104,11 @@ class SurfaceSpline:
     def cut_vertices(self, vertices: Array, count: int = 1) -> Array:
         """The vertices of the mesh after `count` cuts; after all of them, with regular facets."""
         last = count + 1 + (count == len(self.cuts))
-        return reduce(lambda points, stage: stage @ points, self.stages[:last], vertices)
+        return reduce(_applied, self.stages[:last], vertices)
+
+
+def _applied(points: Array, stage: Sparse) -> Array:
+    return stage @ points
 
 
 def _with_weights(points: Array) -> Array:
@@ -142,8 +147,9 @@ def surface_spline(t: Topology, ratios: ArrayLike = 0.5) -> SurfaceSpline:
         low, quadratic = _used(low, quadratic)
         raised, index = None, quadratic
     stages += [regular_facets(last), low]
+    belongs = face[last.origin[ring[:, 0]]]
     return SurfaceSpline(
-        tuple(stages), quadratic, raised, index, facet, face[last.origin[ring[:, 0]]], tuple(cuts)
+        tuple(stages), quadratic, raised, index, facet, belongs, whole, tuple(cuts)
     )
 
 

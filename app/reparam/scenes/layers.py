@@ -63,6 +63,7 @@ class Patches:
     texture: Texture | None = None
     color: Color = (1.0, 1.0, 1.0)
     lit: bool = False
+    kind: Color = (1.0, 1.0, 1.0)  # what the display's shading by kind shows
 
     def __post_init__(self) -> None:
         _freeze(self)

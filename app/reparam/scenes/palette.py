@@ -27,3 +27,13 @@ MOVING = rgb("E69F00")  # orange: what walks in time
 GUIDE = rgb("BBBBBB")  # what leads the eye
 KEPT = rgb("D55E00")  # vermillion, on a curve: what stays as it was
 MODIFIED = rgb("0072B2")  # blue, on a curve: what a designer changes
+SMOOTH = rgb("009E73")  # bluish green: where things join as they should
+SHARP = rgb("D55E00")  # vermillion: where they do not
+FACETS = {  # the patches around a facet of that size; 4: all is regular
+    3: rgb("009E73"),
+    4: rgb("A9D6F0"),
+    5: rgb("E69F00"),
+    6: rgb("CC79A7"),
+    7: rgb("D55E00"),
+    8: rgb("F0E442"),
+}
