@@ -40,6 +40,7 @@ from .glu_errors import (
     TrimCurveMissing,
     TrimOutsideSurface,
 )
+from .glu_trims import check_trims
 from .nurbs_callbacks import call_back
 from .nurbs_properties import UNLOADED, Properties, View, changed, value_of
 from .splines import Nurbs, NurbsTrim, PwlTrim, Spline, TrimCurve
@@ -305,6 +306,11 @@ class NurbsRenderer:
                 self._fail(GeometryMissing(f"{call}: expected one vertex map, found {vertex}"))
             return
         nurbs = Nurbs(tuple(opened.splines), self.properties, opened.view, tuple(opened.trims))
+        try:
+            check_trims(nurbs)
+        except GluError as error:
+            self._fail(error)
+            return
         self._ended.append(nurbs)
         if self.properties.mode == k.GLU_NURBS_TESSELLATOR and self._callbacks:
             curve, components = call == "gluEndCurve", nurbs.vertex.target.components

@@ -14,10 +14,10 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..geometry.net import Array
-from ..geometry.nurbs import breakpoints, domain, extraction_between
+from ..geometry.nurbs import breakpoints, curve_to_bezier, domain, extraction_between
+from ..geometry.trimming import TrimRegion, trim_region
 from .maps import FILL, Attribute, Target
 from .nurbs_properties import UNLOADED, Properties, View
 
@@ -60,6 +60,13 @@ class NurbsTrim:
 TrimCurve = PwlTrim | NurbsTrim
 
 
+def trim_pieces(curve: TrimCurve) -> list[Array]:
+    """The curve as `trim_region` takes it: a polyline (k, 2), or Bezier curves (k, 3)."""
+    if isinstance(curve, PwlTrim):
+        return [curve.points]
+    return list(curve_to_bezier(curve.knots, curve.points, curve.order).nets)
+
+
 @dataclass(frozen=True, eq=False)
 class Nurbs:
     """What stood between Begin and End: maps of one dimension, exactly one of them of vertices."""
@@ -79,6 +86,18 @@ class Nurbs:
     def vertex(self) -> Spline:
         """The map whose domain is drawn."""
         return self.by_attribute["vertex"]
+
+    @cached_property
+    def region(self) -> TrimRegion | None:
+        """What the trims leave, or None if there are none. Raises TrimError."""
+        if not self.trims:
+            return None
+        loops = [[p for curve in loop for p in trim_pieces(curve)] for loop in self.trims]
+        (u0, u1), (v0, v1) = (
+            domain(knots, order)
+            for knots, order in zip(self.vertex.knots, self.vertex.orders, strict=True)
+        )
+        return trim_region(loops, (u0, u1, v0, v1))
 
     def ends(self, axis: int) -> Array:
         """Where the pieces of an axis begin and end: all maps' knots in the vertex map's domain."""
@@ -106,6 +125,3 @@ def subdivided(ends: Array, finer: int) -> Array:
     share = np.arange(finer) / finer
     between = ends[:-1, None] + np.diff(ends)[:, None] * share
     return np.append(between.ravel(), ends[-1])
-
-
-Indices = NDArray[np.intp]

@@ -26,6 +26,7 @@ from .maps import FILL, Map
 from .recording import HAVE_CURRENT, Collection, Current, Evaluated, Maps, Mesh, Recording
 from .sampling import steps
 from .splines import Nurbs
+from .trimmed import trimmed_pieces
 
 Single = NDArray[np.float32]
 Read = Callable[[Recording], list[Evaluated]]
@@ -81,6 +82,8 @@ def parts(nurbs: Nurbs) -> list[Part]:
     """What is drawn of each piece, as the display mode says."""
     if len(nurbs.vertex.knots) == 1:
         return list(_strokes(nurbs))
+    if nurbs.region is not None:
+        return list(_trimmed(nurbs))
     outlined = nurbs.properties.display_mode == GLU_OUTLINE_PATCH
     return list(_outlines(nurbs) if outlined else _fillings(nurbs))
 
@@ -111,6 +114,15 @@ def _outlines(nurbs: Nurbs) -> Iterator[Part]:
         for end in (0, 1) if s == 0 else (1,):
             grid = Grid(Walk(Axis(1, 0.0, 1.0), end, end), along_v)
             yield Part(Mesh(maps, grid, GL_LINE, Current()), low, size)
+
+
+def _trimmed(nurbs: Nurbs) -> Iterator[Part]:
+    """What the trims leave of each piece: triangles, or lines."""
+    mode, cut = trimmed_pieces(nurbs, *steps(nurbs))
+    for place, maps, low, size in _pieces(nurbs):
+        if place in cut:
+            local = (cut[place] - low) / size
+            yield Part(collection(mode, maps, local), low, size)
 
 
 def _walk(count: int) -> Walk:

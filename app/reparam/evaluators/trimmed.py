@@ -1,0 +1,96 @@
+"""Trimmed surfaces as triangles or lines of which each lies in one cell of its piece's grid.
+
+So the tolerance that holds for the cells holds for them: the longest edge, and the largest
+distance of a triangle from the surface, are those of the cell's box.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+
+import numpy as np
+
+from ..geometry.net import Array
+from ..geometry.trimming.triangulation import (
+    Point,
+    cut_by_grid,
+    triangulate_polygons,
+    trim_polygons,
+)
+from .constants import GL_LINES, GL_TRIANGLES
+from .glu_constants import GLU_FILL, GLU_NURBS_TESSELLATOR, GLU_OUTLINE_PATCH
+from .sampling import Steps
+from .splines import Nurbs
+
+Place = tuple[int, int]
+Line = tuple[Point, Point]
+
+
+def trimmed_pieces(nurbs: Nurbs, nu: Steps, nv: Steps) -> tuple[int, dict[Place, Array]]:
+    """GL_TRIANGLES or GL_LINES, and for each piece (s, t) their (u, v), one after another: (k, 2).
+
+    As the display mode says: filled, the edges of the triangles, or the trims and the borders of
+    the pieces.
+    """
+    region, properties = nurbs.region, nurbs.properties
+    assert region is not None
+    (u_lines, u_piece), (v_lines, v_piece) = (
+        _lines(nurbs.ends(axis), count) for axis, count in ((0, nu), (1, nv))
+    )
+    cell = (float(np.diff(u_lines).min()), float(np.diff(v_lines).min()))
+    triangles: dict[Place, list[tuple[Point, Point, Point]]] = defaultdict(list)
+    for triangle in triangulate_polygons(trim_polygons(region, cell)):
+        for i, j, polygon in cut_by_grid(triangle, u_lines, v_lines):
+            first, *others = polygon
+            fan = [(first, a, b) for a, b in pairwise(others)]
+            triangles[u_piece[i], v_piece[j]].extend(fan)
+    display = properties.display_mode
+    if display == GLU_OUTLINE_PATCH:
+        return GL_LINES, _flat(_borders(triangles, nurbs))
+    if display == GLU_FILL or properties.mode == GLU_NURBS_TESSELLATOR:
+        return GL_TRIANGLES, _flat(triangles)
+    return GL_LINES, _flat({place: _edges(found) for place, found in triangles.items()})
+
+
+def _lines(ends: Array, count: Steps) -> tuple[Array, list[int]]:
+    """The lines of the grid, and which piece each of the cells between them belongs to.
+
+    Computed as the grid's points are, so that both hit the same numbers.
+    """
+    inner = [
+        a + (b - a) * (np.arange(n) / n) for a, b, n in zip(ends, ends[1:], count, strict=False)
+    ]
+    piece = np.repeat(np.arange(len(count)), count)
+    return np.append(np.concatenate(inner), ends[-1]), piece.tolist()
+
+
+def _flat(found: Mapping[Place, Sequence[tuple[Point, ...]]]) -> dict[Place, Array]:
+    return {place: np.array(parts).reshape(-1, 2) for place, parts in found.items() if parts}
+
+
+def _edges(triangles: list[tuple[Point, Point, Point]]) -> list[Line]:
+    """The edges of triangles, each once."""
+    around = [edge for a, b, c in triangles for edge in ((a, b), (b, c), (c, a))]
+    return list({(min(edge), max(edge)): edge for edge in around}.values())
+
+
+def _borders(
+    triangles: dict[Place, list[tuple[Point, Point, Point]]], nurbs: Nurbs
+) -> dict[Place, list[Line]]:
+    """The edges that bound the region, and those on the borders between two pieces."""
+    edges = {
+        place: [edge for a, b, c in found for edge in ((a, b), (b, c), (c, a))]
+        for place, found in triangles.items()
+    }
+    every = {edge for found in edges.values() for edge in found}
+    inner = [set(nurbs.ends(axis)[1:-1].tolist()) for axis in (0, 1)]
+
+    def seen(edge: Line) -> bool:
+        a, b = edge
+        if (b, a) not in every:
+            return True
+        return a < b and any(a[k] == b[k] and a[k] in inner[k] for k in (0, 1))
+
+    return {place: [edge for edge in found if seen(edge)] for place, found in edges.items()}
