@@ -21,6 +21,7 @@ from typing import Any
 
 import evaluator_cases
 import numpy as np
+import nurbs_cases
 
 from reparam.errors import ReparamError
 from reparam.snapshot import Studio
@@ -73,6 +74,8 @@ KINDS: dict[str, Comparer] = {
     "map2": evaluator_cases.compare_points,
     "map1_mesh": evaluator_cases.compare_mesh,
     "map2_mesh": evaluator_cases.compare_mesh,
+    "nurbs_curve": nurbs_cases.compare_curve,
+    "nurbs_surface": nurbs_cases.compare_surface,
 }
 
 

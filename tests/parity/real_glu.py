@@ -136,3 +136,63 @@ class RealNurbs:
 
     def close(self) -> None:
         self.call("gluDeleteNurbsRenderer")
+
+
+WIDTHS = {"VERTEX_3": 3, "VERTEX_4": 4, "COLOR_4": 4, "NORMAL": 3, "TEXTURE_COORD_1": 1,
+          "TEXTURE_COORD_2": 2, "TEXTURE_COORD_3": 3, "TEXTURE_COORD_4": 4}  # fmt: skip
+
+
+def run_real(glu: ctypes.CDLL, kind: str, inputs: Mapping[str, Any]) -> dict[str, Any]:
+    """The outputs of a case of kind "nurbs_curve" or "nurbs_surface", as libGLU has them."""
+    surface = kind == "nurbs_surface"
+    own = inputs.get("type", "VERTEX_3")
+    texture = next((WIDTHS[e[0]] for e in inputs.get("extra", ()) if e[0][:3] == "TEX"), 2)
+    nurbs = RealNurbs(glu, 5 if surface else WIDTHS[own], texture)
+    nurbs.properties({PROPERTIES[k]: PROPERTIES.get(v, v) for k, v in inputs["props"].items()})
+    if "view" in inputs:
+        nurbs.load(*inputs["view"])
+    names = ("sknots", "tknots", "ctrl", "sorder", "torder") if surface else (
+        "knots", "ctrl", "order")  # fmt: skip
+    maps = [*inputs.get("extra", ()), (own, *(inputs[name] for name in names))]
+    nurbs.call("gluBeginSurface" if surface else "gluBeginCurve")
+    for name, *data in maps:
+        target = name if isinstance(name, int) else (0x0DB0 if surface else 0x0D90) + TARGETS[name]
+        if surface:
+            nurbs.surface(*data[:3], data[3:], target)
+        else:
+            nurbs.curve(*data, target)
+    for loop in inputs.get("trims", ()):
+        nurbs.call("gluBeginTrim")
+        for form, *data in loop:
+            if form == "pwl":
+                nurbs.pwl(data[0])
+            else:
+                nurbs.curve(*data, TRIM_2 if np.shape(data[1])[1] == 2 else TRIM_3)
+        nurbs.call("gluEndTrim")
+    nurbs.call("gluEndSurface" if surface else "gluEndCurve")
+    nurbs.close()
+    return {"prims": [outputs_of(p, surface) for p in nurbs.primitives], "errors": nurbs.errors}
+
+
+def outputs_of(primitive: Primitive, surface: bool) -> dict[str, Any]:
+    vertices = primitive.vertices
+    return {
+        "mode": MODES[primitive.mode],
+        "pos": [vertex[:3] if surface else vertex for vertex in vertices],
+        "uv": [vertex[3:] for vertex in vertices] if surface else [],
+        "normal": primitive.normals,
+        "color": primitive.colors,
+        "tex": primitive.texcoords,
+    }
+
+
+MODES = ("POINTS", "LINES", "LINE_LOOP", "LINE_STRIP", "TRIANGLES", "TRIANGLE_STRIP",
+         "TRIANGLE_FAN", "QUADS", "QUAD_STRIP", "POLYGON")  # fmt: skip
+TARGETS = {"COLOR_4": 0, "NORMAL": 2, "TEXTURE_COORD_1": 3, "TEXTURE_COORD_2": 4,
+           "TEXTURE_COORD_3": 5, "TEXTURE_COORD_4": 6, "VERTEX_3": 7, "VERTEX_4": 8}  # fmt: skip
+PROPERTIES = {"SAMPLING_METHOD": 100205, "SAMPLING_TOLERANCE": 100203,
+              "PARAMETRIC_TOLERANCE": 100202, "U_STEP": 100206, "V_STEP": 100207,
+              "CULLING": 100201, "DISPLAY_MODE": 100204, "PATH_LENGTH": 100215,
+              "PARAMETRIC_ERROR": 100216, "DOMAIN_DISTANCE": 100217, "FILL": 100012,
+              "OBJECT_PATH_LENGTH": 100209, "OBJECT_PARAMETRIC_ERROR": 100208,
+              "OUTLINE_POLYGON": 100240, "OUTLINE_PATCH": 100241}  # fmt: skip

@@ -173,19 +173,11 @@ def evaluate_at(
     not looked at on a curve.
     """
     where = np.array(parameters, dtype=np.float64).reshape(-1, 2)
-    surface = len(nurbs.vertex.knots) == 2
-    if not surface:
+    if len(nurbs.vertex.knots) == 1:
         where[:, 1] = 0.0
-    side = where if towards is None else towards
-    inside = [_interval(nurbs.ends(axis), side[:, axis]) for axis in range(1 + surface)]
-    s, t = inside[0], inside[1] if surface else np.zeros(len(where), np.intp)
-    found, order = [], [np.zeros(0, np.intp)]
-    for (i, j), maps, low, size in _pieces(nurbs, cull=False):
-        members = np.flatnonzero((s == i) & (t == j))
-        if len(members):
-            local = (where[members] - low) / np.where(size > 0.0, size, 1.0)
-            found.append(Part(collection(GL_POINTS, maps, local), low, size))
-            order.append(members)
+    within = list(parts_at(nurbs, where, where if towards is None else towards))
+    found = [part for part, _ in within]
+    order = [np.zeros(0, np.intp), *(members for _, members in within)]
     made = _joined(nurbs, found, read)
     back = np.argsort(np.concatenate(order))
 
@@ -201,6 +193,21 @@ def evaluate_at(
         np.zeros((0, 1), np.int32),
         (),
     )
+
+
+def parts_at(
+    nurbs: Nurbs, parameters: Array, towards: Array
+) -> Iterator[tuple[Part, NDArray[np.intp]]]:
+    """The pieces with the points that lie in them: GL_POINTS, and which of (u, v) they are."""
+    axes = range(len(nurbs.vertex.knots))
+    inside = np.zeros((len(parameters), 2), np.intp)
+    for axis in axes:
+        inside[:, axis] = _interval(nurbs.ends(axis), towards[:, axis])
+    for place, maps, low, size in _pieces(nurbs, cull=False):
+        members = np.flatnonzero((inside == place).all(-1))
+        if len(members):
+            local = (parameters[members] - low) / np.where(size > 0.0, size, 1.0)
+            yield Part(collection(GL_POINTS, maps, local), low, size), members
 
 
 def _interval(ends: Array, t: Array) -> NDArray[np.intp]:
