@@ -8,7 +8,7 @@ from math import comb, factorial
 import numpy as np
 import pytest
 
-from reparam.geometry.continuity import Joint, angle, bell, join, join_curves
+from reparam.geometry.continuity import Joint, angle, bell, composed, join, join_curves
 from reparam.geometry.jets import Jet, bezier_jet, jet, rational_jet, spline_jet
 from reparam.geometry.singular import image_order
 
@@ -30,7 +30,7 @@ def times(a: Polynomial, b: Polynomial) -> Polynomial:
     return out
 
 
-def composed(points: list[list[int]], derivatives: list[Fraction]) -> list[list[Fraction]]:
+def composition(points: list[list[int]], derivatives: list[Fraction]) -> list[list[Fraction]]:
     """Derivatives 0..5 at h = 0 of the Bezier curve of r(h), by multiplying polynomials."""
     r = [Fraction(0), *(x / factorial(m) for m, x in enumerate(derivatives, 1))]
     rest = [Fraction(1), *(-x for x in r[1:])]
@@ -56,7 +56,7 @@ def test_derivatives_disagree_and_the_curve_is_smooth() -> None:
 
 
 def test_r_is_recovered_exactly() -> None:
-    f, g = jet(composed(CUBIC, R)), bezier_jet(CUBIC, 0, 5)
+    f, g = jet(composition(CUBIC, R)), bezier_jet(CUBIC, 0, 5)
     assert f.exact
     assert join(f, g) == Joint(5, "", tuple(R))
     rough = join(*(Jet(x.derivatives.astype(float), x.sizes.astype(float)) for x in (f, g)))
@@ -64,10 +64,21 @@ def test_r_is_recovered_exactly() -> None:
     assert rough.derivatives == pytest.approx([float(x) for x in R], abs=1e-12)
 
 
+def test_composed() -> None:
+    g = bezier_jet(CUBIC, 0, 5)
+    assert (composed(g, R).derivatives == np.array(composition(CUBIC, R))).all()
+    floats = composed(
+        Jet(g.derivatives.astype(float), g.sizes.astype(float)), [float(x) for x in R]
+    )
+    np.testing.assert_allclose(
+        floats.derivatives, np.array(composition(CUBIC, R), float), rtol=1e-13, atol=1e-12
+    )
+
+
 @pytest.mark.parametrize("exact", [True, False])
 @pytest.mark.parametrize("order", [1, 2, 3, 4, 5])
 def test_a_disturbed_derivative_stops_there(order: int, exact: bool) -> None:
-    derivatives = composed(CUBIC, R)
+    derivatives = composition(CUBIC, R)
     derivatives[order][0] += Fraction(1, 1000)
     f, g = jet(derivatives), bezier_jet(CUBIC, 0, 5)
     if not exact:
@@ -162,7 +173,7 @@ def test_regular_joints_have_regular_images() -> None:
     """At regular ends the image and the derivatives of r give the same order."""
     random = np.random.default_rng(3)
     for order in range(2, 6):
-        derivatives = composed(CUBIC, R)
+        derivatives = composition(CUBIC, R)
         derivatives[order][1] += Fraction(int(random.integers(1, 9)))
         f, g = jet(derivatives), bezier_jet(CUBIC, 0, 5)
         assert image_order(f, g, (1, 1), 5, 0.0)[0] == join(f, g).order == order - 1

@@ -14,6 +14,8 @@ from reparam.subject import open_subject
 SCENES = [
     ("fig3",),
     ("fig3", "smooth=G2"),
+    ("joins", "pieces=arch", "speed=3"),
+    ("cusp", "turn=30"),
 ]
 
 

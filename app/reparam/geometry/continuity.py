@@ -12,8 +12,10 @@ Ends where a first derivative vanishes are judged by their image (`singular.py`)
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from math import atan2, comb, degrees
+from fractions import Fraction
+from math import atan2, comb, degrees, factorial
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -46,6 +48,17 @@ class Joint:
     def regular(self) -> bool:
         """Whether neither first derivative vanishes."""
         return self.exponents == (1, 1)
+
+    def told(self) -> str:
+        """What was found, in one line."""
+        if self.order < 0:
+            return f"the pieces do not meet: {self.reason}"
+        found = "joined" if self.regular else "the image is"
+        found += f" G{self.order}" + ("" if self.reason else " at least")
+        if self.derivatives:
+            values = ", ".join(_short(value) for value in self.derivatives)
+            found += f": r′, r″, … = {values}"
+        return f"{found}; {self.reason}" if self.reason else found
 
 
 def join_curves(f: ArrayLike, g: ArrayLike, order: int = 5, tolerance: float = TOLERANCE) -> Joint:
@@ -106,10 +119,27 @@ def _regular(f: Jet, g: Jet, order: int, tolerance: float) -> Joint:
         size += sum(abs(row[j]) * g.sizes[j] for j in range(2, m + 1))
         missed = rest - newest * tangent
         if exceeds(missed, size, tolerance):
-            reason = f"order {m} fails: {_length(missed):.3g} across the tangent cannot be mended"
+            reason = f"order {m} fails, by {_length(missed):.3g} across the tangent"
             return Joint(m - 1, reason, tuple(change))
         change.append(newest)
     return Joint(order, "", tuple(change))
+
+
+def composed(g: Jet, change: Sequence[Number]) -> Jet:
+    """The jet of g o r from r', r'', .., as many as g has: series put into each other (Horner)."""
+    one = Fraction(1) if g.exact else 1.0
+    count = g.order + 1
+    r = np.array([0 * one] + [one * x / factorial(m) for m, x in enumerate(change, 1)])[:count]
+    columns = []
+    for column in g.derivatives.T:
+        coefficients = [x * one / factorial(m) for m, x in enumerate(column)]
+        total = np.array([0 * one])
+        for coefficient in reversed(coefficients):
+            total = np.convolve(total, r)[:count]
+            total[0] += coefficient
+        columns.append([x * factorial(m) for m, x in enumerate(total)])
+    values = np.array(columns).T
+    return Jet(values, np.abs(values).max(1))
 
 
 def bell(derivatives: list[Number], m: int) -> list[Number]:
@@ -151,3 +181,9 @@ def _length(vector: Numbers) -> float:
 
 def _floats(jet: Jet) -> Jet:
     return Jet(jet.derivatives.astype(np.float64), jet.sizes.astype(np.float64))
+
+
+def _short(value: Number) -> str:
+    if isinstance(value, Fraction):
+        return str(value)
+    return "0" if abs(value) < 1e-9 else f"{value:.6g}".replace("-", "−")

@@ -37,3 +37,4 @@ FACETS = {  # the patches around a facet of that size; 4: all is regular
     7: rgb("D55E00"),
     8: rgb("F0E442"),
 }
+PIECES = (rgb("0072B2"), rgb("D55E00"), rgb("009E73"))  # of a curve, in their order
