@@ -20,7 +20,7 @@ from math import atan2, comb, degrees, factorial
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .jets import Jet, Number, Numbers, exceeds, rational_jet
+from .jets import Jet, Number, Numbers, Values, exceeds, rational_jet
 from .singular import image_order, leading
 
 TOLERANCE = 1e-9  # of floats, beside what was added up; fractions have none
@@ -61,7 +61,7 @@ class Joint:
         return f"{found}; {self.reason}" if self.reason else found
 
 
-def join_curves(f: ArrayLike, g: ArrayLike, order: int = 5, tolerance: float = TOLERANCE) -> Joint:
+def join_curves(f: Values, g: Values, order: int = 5, tolerance: float = TOLERANCE) -> Joint:
     """The joint of two rational Bezier curves, f at its parameter 1 with g at its parameter 0.
 
     Nets (m, d + 1) and (n, d + 1), premultiplied, the last coordinate the weight.

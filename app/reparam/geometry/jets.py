@@ -6,6 +6,7 @@ polynomial or rational Bezier curves, B-splines, or NURBS curves; points in any 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import comb
@@ -18,6 +19,7 @@ Numbers = NDArray[Any]  # float64, or object: fractions
 Number = Any
 End = Literal[0, 1]
 Side = Literal["left", "right"]
+Values = ArrayLike | Sequence[Any]  # numbers, fractions among them
 
 FAR = 1e-6  # how far off the origin counts, beside the extent: coordinates are rounded there
 
@@ -51,7 +53,7 @@ def exceeds(vector: Numbers, size: Number, tolerance: float) -> bool:
     return bool(np.abs(vector).max() > tolerance * size)
 
 
-def as_numbers(values: ArrayLike) -> Numbers:
+def as_numbers(values: Values) -> Numbers:
     """The array in float64 or, if all its numbers are whole or fractions, in fractions.
 
     Raises ValueError for numbers that are not finite.
@@ -67,7 +69,7 @@ def as_numbers(values: ArrayLike) -> Numbers:
     return array
 
 
-def jet(derivatives: ArrayLike) -> Jet:
+def jet(derivatives: Values) -> Jet:
     """A jet from derivatives (k + 1, d), each one's own length taken for its size."""
     values = as_numbers(derivatives)
     if values.ndim != 2 or len(values) < 2:
@@ -75,7 +77,7 @@ def jet(derivatives: ArrayLike) -> Jet:
     return Jet(values, np.abs(values).max(1))
 
 
-def bezier_jet(points: ArrayLike, end: End, order: int, width: Number = 1) -> Jet:
+def bezier_jet(points: Values, end: End, order: int, width: Number = 1) -> Jet:
     """The jet at parameter 0 or 1 of the Bezier curve with points (n, d).
 
     The m-th derivative is d!/(d-m)! times the m-th difference at that end, over `width`^m, the
@@ -92,7 +94,7 @@ def bezier_jet(points: ArrayLike, end: End, order: int, width: Number = 1) -> Je
     )
 
 
-def rational_jet(net: ArrayLike, end: End, order: int, width: Number = 1) -> Jet:
+def rational_jet(net: Values, end: End, order: int, width: Number = 1) -> Jet:
     """The jet at parameter 0 or 1 of the rational Bezier curve with the net (n, d + 1).
 
     From X = w x, premultiplied, follows x^(m) w = X^(m) - sum_{j>0} C(m,j) w^(j) x^(m-j) (The
@@ -119,8 +121,8 @@ def rational_jet(net: ArrayLike, end: End, order: int, width: Number = 1) -> Jet
 
 
 def spline_jet(
-    knots: ArrayLike,
-    points: ArrayLike,
+    knots: Values,
+    points: Values,
     t: Number,
     order: int,
     side: Side,
@@ -169,7 +171,7 @@ def blossom(points: Numbers, knots: Numbers, arguments: list[Number]) -> Numbers
     return np.asarray(points[0])
 
 
-def _points(points: ArrayLike) -> Numbers:
+def _points(points: Values) -> Numbers:
     values = as_numbers(points)
     if values.ndim != 2 or len(values) < 2:
         raise ValueError(f"expected at least two points, (n, d), found shape {values.shape}")

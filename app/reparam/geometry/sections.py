@@ -16,8 +16,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .jets import End, blossom, rational_jet
+from .jets import End, rational_jet
 from .net import raise_degree
+from .nurbs import clamped_knots, curve_to_bezier
 
 Array = NDArray[np.float64]
 
@@ -50,15 +51,9 @@ def spline_pieces(polygon: ArrayLike) -> Array:
     points = np.asarray(polygon, dtype=np.float64)
     if points.ndim != 2 or len(points) < 4:
         raise ValueError(f"expected a polygon of at least 4 points, found shape {points.shape}")
-    count = len(points) - 3
-    knots = np.concatenate([[0.0] * 3, np.arange(count + 1.0), [float(count)] * 3])
-    nets = np.zeros((count, 4, 4))
-    nets[..., 3] = 1.0
-    for i in range(count):
-        around = knots[i + 1 : i + 7]
-        for k in range(4):
-            at = [float(i)] * (3 - k) + [i + 1.0] * k
-            nets[i, k, :2] = blossom(points[i : i + 4, :2], around, at)
+    pieces = curve_to_bezier(clamped_knots(len(points), 4), points, 4).nets
+    nets = np.zeros((len(pieces), 4, 4))
+    nets[..., :2], nets[..., 3] = pieces, 1.0
     return nets
 
 

@@ -153,7 +153,10 @@ class Hand:
             self._renew()  # the last bit of the way is not drawn yet
             self._state.say(self.described(self.chosen))
         elif layer is not None and layer.click is not None:
-            self._state.change(layer.click(self._state.subject.values, self.chosen.index))
+            try:
+                self._state.change(layer.click(self._state.subject.values, self.chosen.index))
+            except ValueError as fault:
+                self._state.say(str(fault))
 
     def _renew(self) -> None:
         """The layers as they will be drawn next, if they can be drawn."""

@@ -176,7 +176,7 @@ def handles(own: list[Array]) -> Handles:
 
 @joins.claims
 def claims() -> Iterator[Claim]:
-    f, g = (np.array([[x, y, 1] for x, y in points], dtype=object) for points in LINE)
+    f, g = ([[x, y, 1] for x, y in points] for points in LINE)
     found = join_curves(f, g, 9)
     statement = "r', r'', .., r⁽⁹⁾ found for the two pieces of the diagonal, exactly"
     values = [float(x) for x in found.derivatives]
