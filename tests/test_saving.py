@@ -134,7 +134,7 @@ BAD = {
     "deep": ("[" * 100_000, "too deep a nest"),
     "no scene": ('{"reparam": 1}', ":1: expected the name of a scene or of a file, found neither"),
     "both": (GOOD + ', "file": "x"}', ":3: expected the name of a scene or of a file, found both"),
-    "unknown scene": (GOOD.replace("fig5", "fgi5") + "}", ":3: expected a scene (fig"),
+    "unknown scene": (GOOD.replace("fig5", "fgi5") + "}", ":3: expected a scene ("),
     "unknown word": (GOOD + ',\n "size": 3}', ":4: expected one of reparam, scene, file"),
     "no section": (GOOD + ',\n "views": 3}', ":4: expected an object with names and values"),
     "unknown parameter": (
