@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 from . import __version__
 from .errors import ReparamError, UsageError
+from .files.progress import Progress, silent
 from .viewer.keys import keys_text
 
 if TYPE_CHECKING:
@@ -155,10 +156,10 @@ def parse_size(text: str) -> tuple[int, int]:
     return size
 
 
-def _subject(options: argparse.Namespace) -> Subject:
+def _subject(options: argparse.Namespace, progress: Progress = silent) -> Subject:
     from .subject import open_subject, without_bad_pictures
 
-    subject = open_subject(options.subject).assigned(options.assignments)
+    subject = open_subject(options.subject, progress).assigned(options.assignments)
     if options.views:
         from .saving import parse_view, with_views
 
@@ -186,10 +187,11 @@ def run_default(options: argparse.Namespace) -> int:
 
 def run_view(options: argparse.Namespace) -> int:
     """The window."""
-    size, subject = parse_size(options.size), _subject(options)
+    size = parse_size(options.size)
     from .viewer.window import show
 
-    return show(subject, size, options.evaluator)
+    name = options.subject
+    return show(name, lambda progress: _subject(options, progress), size, options.evaluator)
 
 
 def run_render(options: argparse.Namespace) -> int:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from .errors import FileFormatError, UsageError
+from .files.progress import Progress, silent
 from .files.saved import is_saved
 from .geometry.camera import View
 from .scenes.cursor import Cursor, is_linked, marked, parse, within
@@ -124,8 +125,10 @@ def scene_subject(
     return Subject(scene, values, data=data or {}, title=title or scene.title, source=source)
 
 
-def open_subject(name: str) -> Subject:
+def open_subject(name: str, progress: Progress = silent) -> Subject:
     """A scene by its name, or a file by its path: a surface, or a scene that was saved.
+
+    `progress` is told which share of a file, from 0 to 1, has been read.
 
     Raises UsageError for a name that is neither, FileFormatError for a file that is not readable.
     """
@@ -135,9 +138,9 @@ def open_subject(name: str) -> Subject:
     if is_saved(path):
         from .saving import open_saved
 
-        return open_saved(path, open_subject)
+        return open_saved(path, lambda found: open_subject(found, progress))
     if path.suffix.lower() == ".bv" or os.path.exists(path):  # Path.exists raises on long names
         from .files.bv import read_bv
 
-        return scene_subject(file_scene(), {"body": read_bv(path)}, path.name, name)
+        return scene_subject(file_scene(), {"body": read_bv(path, progress)}, path.name, name)
     return scene_subject(load_scene(name))  # raises, naming what there is

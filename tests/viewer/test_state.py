@@ -13,6 +13,8 @@ from reparam.geometry.camera import View, frame
 from reparam.scenes.cursor import Cursor
 from reparam.scenes.registry import scene_names
 from reparam.subject import open_subject
+from reparam.viewer.keeping import Keeping
+from reparam.viewer.keyboard import bind
 from reparam.viewer.keys import KEYS
 from reparam.viewer.state import ANIMATION_SECONDS, CHECKS, GLIDE_SECONDS, LEVELS, State
 from reparam.viewer.window import Viewer, hint
@@ -44,7 +46,9 @@ def presses(state: State, press: Callable[[], None], name: str, times: int) -> l
 
 def test_every_action_of_the_table_is_there() -> None:
     state = opened()
-    assert all(callable(getattr(Viewer, k.action, getattr(state, k.action, None))) for k in KEYS)
+    bound = bind((Viewer, Keeping, state))
+    assert {name.upper() for key in KEYS for name in key.names} <= bound.keys()
+    assert all(callable(method) for method, _ in bound.values())
 
 
 def test_texture_checks_net_and_wireframe_come_round() -> None:
@@ -188,7 +192,7 @@ def test_what_a_file_has_not_is_said() -> None:
         press()
         assert "mixed.bv" in state.notice
         assert not state.moving
-    assert hint(state.subject) == "T: the other texture map   H: all keys"
+    assert hint(state.subject) == "T: the other texture map     drag a point     H: all keys"
     assert "M: morph" in hint(opened().subject)
 
 
@@ -266,7 +270,7 @@ def test_reset_keeps_the_file() -> None:
 
 def test_random_keys_leave_no_value_out_of_range() -> None:
     state, random = opened(), np.random.default_rng(3)
-    rows = [row for row in KEYS if not hasattr(Viewer, row.action)]
+    rows = [row for row in KEYS if hasattr(State, row.action)]
     for step in range(600):
         row = rows[random.integers(len(rows))]
         argument = row.arguments[random.integers(len(row.names))] if row.arguments else None

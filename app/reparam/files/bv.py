@@ -33,14 +33,16 @@ from ..geometry.body import (
     triangle_to_tensor,
 )
 from ..geometry.net import MAX_ORDER, Array, check_net
+from .progress import Progress, silent
 from .tokens import Numbers, read_text, runs
 
 RATIONAL = 8
 REFUSED = {6: "trim curve", 7: "B-spline", 9: "triangle with normals", 10: "tensor with normals"}
+TELL = 500  # patches between words about progress
 MAX_CORNERS = 10_000  # of one face: cutting a polygon up may take time like its square
 
 
-def read_bv(path: str | os.PathLike[str]) -> Body:
+def read_bv(path: str | os.PathLike[str], progress: Progress = silent) -> Body:
     """The patches of a .bv file, in their order; group "" is what precedes the first group line.
 
     Raises FileFormatError, `file:line: expected ..., found ...`, for everything that is not a
@@ -50,9 +52,13 @@ def read_bv(path: str | os.PathLike[str]) -> Body:
     path = Path(path)
     patches: list[Patch] = []
     rational: list[tuple[Array, Numbers, int]] = []
-    for group, numbers in runs(path, read_text(path)):
+    told = 0
+    for group, numbers in runs(path, read_text(path), progress):
         while not numbers.at_end():
             start = numbers.position
+            if len(patches) >= told:
+                progress(numbers.share())
+                told = len(patches) + TELL
             kind = _kind(numbers)
             patches += SEGMENTS[kind](numbers, group)
             if len(patches) > MAX_PATCHES:

@@ -42,6 +42,11 @@ def find_picture(source: str) -> Path:
     return Path(source)
 
 
+def is_picture(path: Path) -> bool:
+    """Whether the name ends as those of pictures do."""
+    return path.suffix.lower() in Image.registered_extensions()
+
+
 @lru_cache(maxsize=4)
 def read_picture(path: Path) -> Pixels:
     """Any picture that Pillow reads, turned upright by its EXIF tag, on white where transparent.

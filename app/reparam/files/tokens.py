@@ -17,6 +17,7 @@ import numpy as np
 
 from ..errors import FileFormatError
 from ..geometry.net import LARGEST, Array
+from .progress import Progress, silent
 
 MAX_BYTES = 1 << 28
 CHUNK = 1 << 20  # bytes whose words are Python objects at one time
@@ -50,7 +51,7 @@ def read_text(path: Path) -> bytes:
     return data.rstrip()
 
 
-def runs(path: Path, data: bytes) -> Iterator[tuple[str, Numbers]]:
+def runs(path: Path, data: bytes, progress: Progress = silent) -> Iterator[tuple[str, Numbers]]:
     """What stands between the group lines of `read_text(path)`, each with its group's name.
 
     Numbers before the first group line belong to the group "". Raises FileFormatError for a
@@ -58,7 +59,7 @@ def runs(path: Path, data: bytes) -> Iterator[tuple[str, Numbers]]:
     """
     name, start = "", 0
     for group in GROUP.finditer(data):
-        yield name, Numbers(path, data, start, group.start())
+        yield name, Numbers(path, data, start, group.start(), progress)
         words = group[0].split()
         if len(words) < 3 or not re.fullmatch(rb"[+-]?\d+", words[1]):
             place = f"{path}:{_line(data, group.start())}"
@@ -66,27 +67,31 @@ def runs(path: Path, data: bytes) -> Iterator[tuple[str, Numbers]]:
                 f"{place}: expected Group, a colour number and a name, found {_quote(group[0])}"
             )
         name, start = words[2].decode("utf-8", "replace"), group.end()
-    yield name, Numbers(path, data, start, len(data))
+    yield name, Numbers(path, data, start, len(data), progress)
 
 
 class Numbers:
     """The numbers of one run, handed out in order; `position` is the index of the next."""
 
-    def __init__(self, path: Path, data: bytes, start: int, stop: int) -> None:
+    def __init__(
+        self, path: Path, data: bytes, start: int, stop: int, progress: Progress = silent
+    ) -> None:
         self.position = 0
         self._path = path
         self._data = data
+        self._start = start
         self._stop = stop
         self._first_words: list[int] = []  # of the chunks, as indices in the run
         self._starts: list[int] = []  # of the chunks, as offsets in the file
         self._blocked = False  # by a word that is no usable number
-        self._values = self._convert(start)
+        self._values = self._convert(start, progress)
 
-    def _convert(self, start: int) -> Array:
+    def _convert(self, start: int, progress: Progress) -> Array:
         """The usable numbers, up to the end or to the first word that is none."""
         parts: list[Array] = [np.zeros(0)]
         count = 0
         while start < self._stop and not self._blocked:
+            progress(self._share(0.5 * (start - self._start) / (self._stop - self._start)))
             blank = BLANK.search(self._data, min(start + CHUNK, self._stop), self._stop)
             end = blank.start() if blank else self._stop
             values, whole = _usable_numbers(self._data[start:end])
@@ -97,6 +102,14 @@ class Numbers:
             count += len(values)
             start = end
         return np.concatenate(parts)
+
+    def share(self) -> float:
+        """How much of the file's work is done, nearly: half is reading its words as numbers."""
+        way = 0.5 + 0.5 * self.position / max(1, len(self._values))
+        return self._share(way)
+
+    def _share(self, way: float) -> float:
+        return (self._start + way * (self._stop - self._start)) / max(1, len(self._data))
 
     def at_end(self) -> bool:
         """Whether the run has no more words, of whatever kind."""

@@ -189,6 +189,15 @@ class Painter:
         target.resolve()
         return panels
 
+    def clear_screen(self, size: tuple[int, int]) -> None:
+        """An empty picture in the window's own framebuffer, which is bound from then on."""
+        screen = self.ctx.detect_framebuffer(0)
+        screen.use()
+        self._reset_state()
+        self.ctx.viewport = (0, 0, *size)
+        screen.clear(*palette.GROUND, 1.0)
+        self.ctx.blend_func = (moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA)
+
     def _reset_state(self) -> None:
         """What an earlier frame may have left, had it failed."""
         self.ctx.enable_only(moderngl.BLEND)

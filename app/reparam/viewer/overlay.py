@@ -120,6 +120,19 @@ def draw_prompt(labels: Labels, prompt: Prompt, size: tuple[int, int]) -> None:
         labels.text(row, at, size, share * em, color, anchor=(0.0, 0.5), widest=room)
 
 
+def draw_progress(labels: Labels, name: str, share: float, size: tuple[int, int]) -> None:
+    """How far a file is: a line in the upper left corner, filling up."""
+    em = _em(size)
+    doing = "drawing" if share == 1.0 else "opening"
+    text = f"{doing} {name}: {100.0 * share:.0f} %     Esc: leave"
+    text = _elided(text, round(em), size[0] - 2 * em)
+    width, height = min(measure(text, round(em)) + 2 * em, size[0]), NOTICE * em
+    labels.box(0, size[1] - height, width, height, size, HELP_GROUND)
+    labels.box(0, size[1] - height, share * width, 0.22 * em, size, (*HEADING, 1.0))
+    at = (em, size[1] - height / 2)
+    labels.text(text, at, size, em, INK, anchor=(0.0, 0.5), widest=size[0] - 2 * em)
+
+
 def draw_help(labels: Labels, size: tuple[int, int]) -> None:
     """The keys grouped by purpose, in two columns, as large as fits beneath the notice's line."""
     room = size[1] - NOTICE * _em(size)

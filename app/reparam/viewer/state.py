@@ -428,6 +428,17 @@ class State:
         way = 2.0 - way if way > 1.0 else way
         return interval.low + (interval.high - interval.low) * way * way * (3.0 - 2.0 * way)
 
+    def open(self, subject: Subject) -> None:
+        """Show another scene or file; a file is a page from then on."""
+        self._motion = None
+        self._visited[self.subject.scene.name] = (self.subject, self.views)
+        self._visited.pop(subject.scene.name, None)
+        if subject.data:
+            self._opened = subject
+        self.subject, self.views = subject, dict(subject.views)
+        self.changed = True
+        self.say(f"{subject.scene.name}: {subject.title}")
+
     def _visit(self, name: str) -> None:
         here = self.subject.scene.name
         if name == here:

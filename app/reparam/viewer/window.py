@@ -3,53 +3,84 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import glfw
 import moderngl
-import numpy as np
-from numpy.typing import NDArray
 
-from ..errors import GraphicsError, ReparamError, UsageError
-from ..files.output import check_output, save_picture
+from ..errors import GraphicsError, ReparamError
 from ..frame import draw_subject
 from ..gpu.context import create_for_window
 from ..gpu.diagnosis import explain
 from ..gpu.painter import Painter, Panel
 from ..gpu.targets import Target
-from ..saving import command, save
+from ..scenes.layers import Handles
 from ..subject import Subject
-from .keys import KEYS
+from .keeping import Keeping
+from .keyboard import Keyboard
+from .loading import Loading, Opener
 from .mouse import Mouse
-from .overlay import draw_grid, draw_grip, draw_handles, draw_help, draw_notice, draw_prompt
+from .overlay import (
+    draw_grid,
+    draw_grip,
+    draw_handles,
+    draw_help,
+    draw_notice,
+    draw_progress,
+    draw_prompt,
+)
 from .screen import screen_missing
 from .state import State
 
 FRAME_SECONDS = 1 / 60
+PROGRESS_SECONDS = 0.05
+QUICK = 0.2  # seconds in which most things are open
+HINT_SECONDS = 8.0
+ERROR_SECONDS = 10.0
 
 # What a scene, or a shader just edited, may raise: shown, and the window stays.
 UNDRAWABLE = (ReparamError, ValueError, OSError, AssertionError, moderngl.Error)
 
-# Names of the table that are not GLFW's own.
-NAMED = {"Esc": "ESCAPE", "PageDown": "PAGE_DOWN", "PageUp": "PAGE_UP"}
-TYPED = {"+": ("+", "="), "-": ("-", "_")}  # `+` needs no Shift
-KEYPAD = {glfw.KEY_KP_ADD: "+", glfw.KEY_KP_SUBTRACT: "-", glfw.KEY_KP_ENTER: "ENTER"}
-KEYPAD |= {glfw.KEY_KP_1 + i: str(1 + i) for i in range(9)}
 
+def show(name: str, open: Opener, size: tuple[int, int], evaluator: str | None) -> int:
+    """Open the window and stay until it is closed; what `name` means is opened meanwhile.
 
-def show(subject: Subject, size: tuple[int, int], evaluator: str | None) -> int:
-    """Open the window and stay until it is closed. Raises GraphicsError where there is none."""
+    Raises GraphicsError where there is no window, and what `open` raises.
+    """
+    loading = Loading(Path(name).name, open)
+    if loading.done(QUICK):
+        loading.result()  # what is wrong is said without a window
     missing = screen_missing()
     if missing is not None:
-        name = "FILE" if subject.data else subject.scene.name
+        loading.result()
         raise GraphicsError(f"{missing}; without one: reparam render {name} -o OUT.png")
-    window = open_window(size, f"reparam: {subject.title}")
+    window = open_window(size, f"reparam: {name}")
     try:
-        Viewer(window, subject, evaluator).run()
+        painter = Painter(create_for_window())
+        if wait_for(loading, window, painter):
+            Viewer(window, painter, loading.result(), evaluator).run()
     finally:
+        loading.give_up()
         glfw.terminate()
     return 0
+
+
+def wait_for(loading: Loading, window: Any, painter: Painter) -> bool:
+    """Show how far a file is until it is open; whether it is, or the window was closed."""
+    done = loading.done()
+    while not done:
+        done = loading.done()  # once more then: a large surface takes its time to be drawn, too
+        if glfw.window_should_close(window) or glfw.get_key(window, glfw.KEY_ESCAPE):
+            return False
+        size = glfw.get_framebuffer_size(window)
+        if min(size) > 0:
+            painter.clear_screen(size)
+            draw_progress(painter.labels, loading.name, 1.0 if done else loading.share, size)
+            glfw.swap_buffers(window)
+        glfw.wait_events_timeout(0.0 if done else PROGRESS_SECONDS)
+    return True
 
 
 def open_window(size: tuple[int, int], title: str, visible: bool = True) -> Any:
@@ -76,36 +107,41 @@ def open_window(size: tuple[int, int], title: str, visible: bool = True) -> Any:
 class Viewer:
     """One window. Keys call methods of this class or of its state, as the table of keys says."""
 
-    def __init__(self, window: Any, subject: Subject, evaluator: str | None) -> None:
+    def __init__(
+        self, window: Any, painter: Painter, subject: Subject, evaluator: str | None
+    ) -> None:
         self._window = window
-        self._ctx = create_for_window()
-        self._painter = Painter(self._ctx)
-        capabilities = self._painter.capabilities
+        self._ctx = painter.ctx
+        self._painter = painter
+        capabilities = painter.capabilities
         evaluators = ("vertex", "tessellation") if capabilities.tessellation else ("vertex",)
         self.state = State(subject, evaluators, capabilities.evaluator(evaluator))
         self._target: Target | None = None
         self._samples = 0  # asked for when the target was made
-        self._mouse = Mouse(window, self.state)
         self._windowed: tuple[int, int, int, int] | None = None
         self._began = time.perf_counter()
-        self._actions = self._bind_keys()
-        self._typed_by_key = False  # the letter that opened a prompt does not go into it
-        glfw.set_key_callback(window, self._on_key)
-        glfw.set_char_callback(window, self._on_char)
+        self._mouse = Mouse(window, self.state)
+        self.keeping = Keeping(window, painter, self.state, self._drawn, self._paint)
+        self._keyboard = Keyboard(window, self.state, (self, self.keeping, self.state), self._guard)
+        on_drop: Any = self._on_drop
+        glfw.set_drop_callback(window, on_drop)
         glfw.set_framebuffer_size_callback(window, self._on_damage)
         glfw.set_window_refresh_callback(window, self._on_damage)
-        self.state.say(hint(subject), 6.0)
+        self.state.say(hint(subject), HINT_SECONDS)
 
     def run(self) -> None:
         """Until the window is closed: wait, and draw only what changed."""
         while not glfw.window_should_close(self._window):
             self._tick()
-            self._mouse.settle()
+            self._guard(self.keeping.follow_loading)
+            self._guard(self._mouse.settle)
             began = time.perf_counter()
             if drew := self._draw_changes():
                 time.sleep(max(0.0, began + FRAME_SECONDS - time.perf_counter()))
             if self.state.moving:
                 glfw.wait_events_timeout(1e-3 if drew else FRAME_SECONDS)
+            elif self.keeping.loading is not None:
+                glfw.wait_events_timeout(PROGRESS_SECONDS)
             elif self.state.notice:
                 glfw.wait_events_timeout(max(1e-3, self.state.seconds_of_notice()))
             else:
@@ -113,6 +149,14 @@ class Viewer:
 
     def _tick(self) -> None:
         self.state.advance(time.perf_counter() - self._began)
+
+    def _guard(self, method: Callable[..., None], *arguments: Any) -> None:
+        """Call a method; what it raises is one line in the window, and the scene stays."""
+        self._tick()  # the clock stood still while the window waited for an event
+        try:
+            method(*arguments)
+        except UNDRAWABLE as error:
+            self.state.say(str(error), ERROR_SECONDS)
 
     # Drawing --------------------------------------------------------------------------------
 
@@ -135,12 +179,19 @@ class Viewer:
         try:
             target = self._draw_frame(size)
         except UNDRAWABLE as error:
-            self.state.say(str(error), 8.0)
+            self.state.say(str(error), ERROR_SECONDS)
             if self._target is None or self._target.size != size:
                 return False
             target = self._target
         self._present(target)
         return True
+
+    def _drawn(self) -> Target | None:
+        """The frame as it is to be now; None while there can be none."""
+        self._mouse.settle()
+        if self.state.changed:
+            self._draw()
+        return self._target
 
     def _draw_frame(self, size: tuple[int, int]) -> Target:
         subject = self.state.subject
@@ -175,6 +226,8 @@ class Viewer:
             draw_prompt(self._painter.labels, prompt, target.size)
         if self.state.notice:
             draw_notice(self._painter.labels, self.state.notice, target.size)
+        if (loading := self.keeping.loading) is not None:
+            draw_progress(self._painter.labels, loading.name, loading.share, target.size)
         glfw.swap_buffers(self._window)
 
     def _draw_hand(self, size: tuple[int, int]) -> None:
@@ -188,131 +241,17 @@ class Viewer:
                 draw_grid(self._painter.labels, panel, size, self._mouse.scale())
             draw_grip(self._painter, hand, grip, size)
 
-    # Keys -----------------------------------------------------------------------------------
-
-    def _bind_keys(self) -> dict[str, tuple[Any, tuple[int, ...]]]:
-        """Method and arguments by the key's name."""
-        bound = {}
-        for key in KEYS:
-            method = getattr(self, key.action, None) or getattr(self.state, key.action)
-            for i, name in enumerate(key.names):
-                for typed in TYPED.get(name, (name,)):
-                    bound[typed.upper()] = (method, key.arguments[i : i + 1])
-        return bound
-
-    def _on_key(self, _: Any, key: int, scancode: int, action: int, mods: int) -> None:
-        if action == glfw.RELEASE or mods & glfw.MOD_ALT:
-            return
-        name, nothing = key_name(key, scancode), (None, ())
-        held = "CTRL+" if mods & (glfw.MOD_CONTROL | glfw.MOD_SUPER) else ""
-        self._typed_by_key = False
-        if self.state.prompt is not None:
-            self._tick()
-            self._type(held + name)
-            return
-        plain = self._actions.get(held + name, nothing)  # Shift changes nothing but what it names
-        shifted = f"{held}SHIFT+{name}" if mods & glfw.MOD_SHIFT else ""
-        method, arguments = self._actions.get(shifted, plain)
-        if method is None or (action == glfw.REPEAT and not arguments):
-            return  # a key held down repeats only what goes on: levels and pages
-        self._tick()  # the clock stood still while the window waited for this key
-        method(*arguments)
-        self._typed_by_key = self.state.prompt is not None
-
-    def _type(self, name: str) -> None:
-        """A key while a line of text is asked for."""
-        if name == "CTRL+V":
-            text: Any = glfw.get_clipboard_string(self._window) or b""
-            letters = text.decode("utf-8", "replace")
-            self.state.type_text("".join(c for c in letters if c.isprintable()))
-        self.state.type_key(name)
-
-    def _on_char(self, _: Any, code: int) -> None:
-        if not self._typed_by_key:
-            self.state.type_text(chr(code))
-        self._typed_by_key = False
-
     def type_value(self) -> None:
         """Ask for the coordinates of a point, or for a parameter."""
         self._mouse.hand.ask()
 
-    # Files ----------------------------------------------------------------------------------
-
-    def screenshot(self, times: int = 1) -> None:
-        """The frame, without what the window adds, into the next free file of the folder."""
-        self._mouse.settle()
-        if self.state.changed:
-            self._draw()  # what a key or the mouse did just now belongs to it
-        if self._target is None:
-            return
-        try:
-            path = check_output(self._free_path(".png"))
-            save_picture(self._target.pixels() if times == 1 else self._enlarged(times), path)
-            self.state.say(f"saved {path}")
-        except ReparamError as error:
-            self.state.say(str(error), 8.0)
-
-    def ask_screenshot(self) -> None:
-        """Ask how many times the window's size a screenshot shall have, and make it."""
-
-        def accept(text: str) -> None:
-            if not text.isdecimal() or int(text) < 1:
-                raise UsageError(f"expected a whole number from 1, found {text!r}")
-            self.screenshot(int(text))
-
-        width, height = glfw.get_framebuffer_size(self._window)
-        self.state.ask(f"screenshot, how many times {width} x {height}?", accept, "2")
-
-    def _enlarged(self, times: int) -> NDArray[np.uint8]:
-        """The same picture with `times` as many pixels to each side. Raises GraphicsError."""
-        assert self._target is not None
-        width, height = (times * side for side in self._target.size)
-        samples = self.state.subject.display.samples
-        target = Target(self._ctx, (width, height), samples, self._painter.capabilities)
-        try:
-            self._paint(target)
-            return target.pixels()
-        finally:
-            target.release()
-
-    def save_scene(self) -> None:
-        """Everything that the picture is made from, as a file that `reparam view` opens again."""
-        try:
-            path = self._free_path(".json")
-            save(self.state.snapshot(), path)
-            self.state.say(f"saved {path}")
-        except ReparamError as error:
-            self.state.say(str(error), 8.0)
-
-    def copy_command(self) -> None:
-        """The command line that draws this picture without a window, into the clipboard."""
-        size = glfw.get_framebuffer_size(self._window)
-        usual = self._painter.capabilities.evaluator(None)
-        evaluator = self.state.evaluator if self.state.evaluator != usual else None
-        text = command(self.state.snapshot(), size, evaluator, f"{self._stem()}.png")
-        glfw.set_clipboard_string(self._window, text)
-        self.state.say(f"copied: {text}", 6.0)
-
-    def _stem(self) -> str:
-        subject = self.state.subject
-        return f"reparam-{Path(subject.source).stem if subject.source else subject.scene.name}"
-
-    def _free_path(self, ending: str) -> Path:
-        """The next free file of the current folder."""
-        number = 1
-        while (path := Path.cwd() / f"{self._stem()}-{number:03}{ending}").exists():
-            number += 1
-        return path
-
     # The window -----------------------------------------------------------------------------
 
     def reload_shaders(self) -> None:
-        """Read the shaders anew; broken ones leave the last good ones at work."""
-        try:
-            self._painter.reload_shaders()
-            self.state.say("shaders reloaded")
-        except UNDRAWABLE as error:
-            self.state.say(str(error), 15.0)
+        """Read the shaders anew; broken ones leave the last good ones at work, and are raised."""
+        self._painter.reload_shaders()
+        self.state.changed = True
+        self.state.say("shaders reloaded")
 
     def toggle_full_screen(self) -> None:
         """Full screen and back."""
@@ -334,28 +273,22 @@ class Viewer:
         self.state.changed = True
 
     def quit(self) -> None:
-        """Close the window."""
-        glfw.set_window_should_close(self._window, True)
+        """Close the window; while a file is being opened, only give that up."""
+        if not self.keeping.give_up_loading():
+            glfw.set_window_should_close(self._window, True)
+
+    def _on_drop(self, _: Any, paths: list[str]) -> None:
+        self._guard(self.keeping.drop, paths)
 
     def _on_damage(self, *_: Any) -> None:
         self.state.changed = True
 
 
 def hint(subject: Subject) -> str:
-    """What to press first: only what this subject has."""
+    """What to do first: only what this subject has."""
     hints = [("texture", "T: the other texture map"), ("morph", "M: morph")]
-    return "   ".join([*(text for name, text in hints if name in subject.values), "H: all keys"])
-
-
-def key_name(key: int, scancode: int) -> str:
-    """The key as the table names it: letters by the user's own keyboard layout."""
-    if key in KEYPAD:
-        return KEYPAD[key]
-    printable = glfw.get_key_name(key, scancode)
-    if printable:
-        return str(printable).upper()
-    for name in (name for row in KEYS for name in row.names):
-        constant = getattr(glfw, "KEY_" + NAMED.get(name, name).upper(), None)
-        if constant is not None and constant == key:
-            return name.upper()
-    return ""
+    found = [text for name, text in hints if name in subject.values]
+    layers = [layer for space in subject.figure().spaces for layer in space.layers]
+    if any(isinstance(layer, Handles) and len(layer.at) for layer in layers):
+        found.append("drag a point")
+    return "     ".join([*found, "H: all keys"])
