@@ -10,33 +10,18 @@ layout(quads, equal_spacing, ccw
 #endif
     ) in;
 
-#include "lib/evaluate.glsl"
-#include "lib/normal.glsl"
+#include "lib/maps.glsl"
 #include "lib/grid.glsl"
-#ifndef PROBE
-#include "lib/surface.glsl"
-#endif
 
 in int patch_of_surface[];
 
+#ifdef ADAPTIVE
+uniform ivec3 tile;   // which in u, in v; how many along each side
+#else
 uniform int level;
 uniform ivec4 tile;
+#endif
 
-uniform sampler2D position_net;
-#ifdef GENERIC_DEGREE
-uniform ivec2 position_degree;
-#else
-const ivec2 position_degree = ivec2(POSITION_DEGREE_U, POSITION_DEGREE_V);
-#endif
-#ifdef TEXTURED
-uniform sampler2D texture_net;
-uniform int texture_stride;   // 0: one map shared by all patches
-#ifdef GENERIC_DEGREE
-uniform ivec2 texture_degree;
-#else
-const ivec2 texture_degree = ivec2(TEXTURE_DEGREE_U, TEXTURE_DEGREE_V);
-#endif
-#endif
 #ifdef PROBE
 #ifdef LISTED
 uniform sampler2D parameter_list;   // packed like a net
@@ -48,35 +33,40 @@ flat out vec4 probed_point;
 flat out vec3 probed_normal;
 #endif
 
+#ifdef ADAPTIVE
+// The levels of a patch and of its edges differ. A vertex on an edge counts that edge's steps, so
+// both patches beside it compute the same pair of parameters.
+vec4 adaptive_parameters() {
+    ivec2 n = ivec2(gl_TessLevelInner[0] + 0.5, gl_TessLevelInner[1] + 0.5);
+    vec2 at = gl_TessCoord.xy;
+    if (at.x == 0.0 || at.x == 1.0)
+        n.y = int(gl_TessLevelOuter[at.x == 0.0 ? 0 : 2] + 0.5);
+    if (at.y == 0.0 || at.y == 1.0)
+        n.x = int(gl_TessLevelOuter[at.y == 0.0 ? 1 : 3] + 0.5);
+    return grid_parameters(tile.xy * n + ivec2(at * vec2(n) + 0.5), n * tile.z);
+}
+#endif
+
 void main() {
     int patch_index = patch_of_surface[0];
+#ifdef ADAPTIVE
+    emit_surface(patch_index, adaptive_parameters());
+#else
     ivec2 step_index = tile.xy + ivec2(gl_TessCoord.xy * vec2(tile.zw) + 0.5);
 #ifdef LISTED
     int number = step_index.x * (level + 1) + step_index.y;
     vec4 uv = control_point(parameter_list, min(number, last_parameter));
 #else
-    vec4 uv = grid_parameters(step_index, level);
-#endif
-#if defined(PROBE) || defined(LIT)
-    vec4 point;
-    vec3 normal = surface_normal(position_net, patch_index, position_degree, uv, point);
-#else
-    vec4 point = evaluate(position_net, patch_index, position_degree, uv);
+    vec4 uv = grid_parameters(step_index, ivec2(level));
 #endif
 #ifdef PROBE
     int texel = (patch_index * (level + 1) + step_index.x) * (level + 1) + step_index.y;
     vec2 center = vec2(texel % probe_size.x, texel / probe_size.x) + 0.5;
     gl_Position = vec4(2.0 * center / vec2(probe_size) - 1.0, 0.0, 1.0);
     probed_parameters = uv;
-    probed_point = point;
-    probed_normal = normal;
+    probed_normal = surface_normal(position_net, patch_index, position_degree, uv, probed_point);
 #else
-    emit_point(point);
-#ifdef TEXTURED
-    emit_map(evaluate(texture_net, patch_index * texture_stride, texture_degree, uv), uv.xz);
-#endif
-#ifdef LIT
-    emit_normal(normal);
+    emit_surface(patch_index, uv);
 #endif
 #endif
 }

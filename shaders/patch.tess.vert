@@ -3,8 +3,18 @@
 
 in int patch_index;
 out int patch_of_vertex;
+#ifdef ADAPTIVE
+in ivec2 inner;
+in ivec4 outer;
+out ivec2 inner_of_vertex;
+out ivec4 outer_of_vertex;
+#endif
 
 void main() {
     patch_of_vertex = patch_index;
+#ifdef ADAPTIVE
+    inner_of_vertex = inner;
+    outer_of_vertex = outer;
+#endif
     gl_Position = vec4(0.0);
 }

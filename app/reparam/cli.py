@@ -88,6 +88,12 @@ def parser() -> argparse.ArgumentParser:
     check.add_argument("--json", action="store_true")
     check.set_defaults(run=run_check)
 
+    accuracy = commands.add_parser("accuracy", help="measure how many pixels drawn points are off")
+    accuracy.add_argument("subject", metavar="SCENE|FILE")
+    accuracy.add_argument("--json", action="store_true")
+    _add_drawing_options(accuracy, "512x512")
+    accuracy.set_defaults(run=run_accuracy)
+
     bench = commands.add_parser("bench", help="measure our frames against others', as ratios")
     bench.add_argument("benchmarks", nargs="*", metavar="BENCHMARK")
     bench.add_argument(
@@ -131,6 +137,14 @@ def _add_drawing_options(command: argparse.ArgumentParser, size: str) -> None:
         "--evaluator",
         choices=("vertex", "tessellation"),
         help="if not given: tessellation on a GPU that has it, vertex on software",
+    )
+    command.add_argument(
+        "--tolerance",
+        type=lambda text: f"tolerance={text}",
+        action="append",
+        dest="assignments",
+        metavar="PX",
+        help="so fine that no drawn point is off by more pixels; 0: the level decides",
     )
 
 
@@ -252,6 +266,24 @@ def run_check(options: argparse.Namespace) -> int:
 
         print(json.dumps([asdict(verdict) for verdict in verdicts], indent=2))
     return 0 if all(verdict.ok for verdict in verdicts) else 1
+
+
+def run_accuracy(options: argparse.Namespace) -> int:
+    """Pixels that drawn points are off; 1 if a tolerance is not kept."""
+    from .accuracy import measure
+    from .snapshot import Studio
+
+    size, subject = parse_size(options.size), _subject(options)
+    found = []
+    for accuracy in measure(Studio(options.evaluator), subject, size):
+        found.append(accuracy)
+        if not options.json:
+            print(accuracy.line(), flush=True)
+    if options.json:
+        import json
+
+        print(json.dumps([accuracy.row() for accuracy in found], indent=2))
+    return 0 if all(accuracy.ok for accuracy in found) else 1
 
 
 def run_bench(options: argparse.Namespace) -> int:

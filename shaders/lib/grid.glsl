@@ -5,7 +5,7 @@ float fraction(int k, int n) {
     return k == n ? 1.0 : float(k) / float(n);
 }
 
-vec4 grid_parameters(ivec2 step_index, int level) {
-    return vec4(fraction(step_index.x, level), fraction(level - step_index.x, level),
-                fraction(step_index.y, level), fraction(level - step_index.y, level));
+vec4 grid_parameters(ivec2 step_index, ivec2 level) {
+    return vec4(fraction(step_index.x, level.x), fraction(level.x - step_index.x, level.x),
+                fraction(step_index.y, level.y), fraction(level.y - step_index.y, level.y));
 }

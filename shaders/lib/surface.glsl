@@ -25,6 +25,15 @@ void emit_map(vec4 map, vec2 uv) {
 }
 #endif
 
+#ifdef LOCATED
+flat out int located_patch;
+out vec2 located_uv;
+void emit_place(int patch_index, vec2 uv) {
+    located_patch = patch_index;
+    located_uv = uv;
+}
+#endif
+
 #ifdef LIT
 void emit_normal(vec3 normal) {
     view_normal = view_from_model * normal;

@@ -32,6 +32,8 @@ TESSELLATION = ("patch.tess.vert", "patch.tesc", "patch.tese")
 EVALUATE = degree_defines(**{"": (3, 1)}) | {"NORMALS": 1}
 LOW = degree_defines(POSITION_=(2, 3), TEXTURE_=(1, 1))
 HIGH = degree_defines(POSITION_=(2, 9), TEXTURE_=(1, 1))
+ADAPTIVE = {"ADAPTIVE": 1}
+LOCATED = {"LOCATED": 1} | degree_defines(POSITION_=(2, 3)) | ADAPTIVE
 VARIANTS: list[tuple[tuple[str, ...], dict[str, Any]]] = [
     *((("mesh.vert", "patch.frag"), look) for look in LOOKS),
     *(((*TESSELLATION, "patch.frag"), look | LOW) for look in LOOKS),
@@ -40,6 +42,13 @@ VARIANTS: list[tuple[tuple[str, ...], dict[str, Any]]] = [
     ((*TESSELLATION, "probe.frag"), {"PROBE": 1} | degree_defines(POSITION_=(31, 1))),
     ((*TESSELLATION, "probe.frag"), {"PROBE": 1, "LISTED": 1} | degree_defines(POSITION_=(2, 1))),
     *((("recorded.vert", "recorded.frag"), look) for look in LOOKS[:4]),
+    *((("adaptive.vert", "patch.frag"), look | LOW | ADAPTIVE) for look in LOOKS),
+    (("adaptive.vert", "patch.frag"), LOOKS[3] | HIGH | ADAPTIVE),
+    *(((*TESSELLATION, "patch.frag"), look | LOW | ADAPTIVE) for look in LOOKS),
+    (("adaptive.vert", "located.frag"), LOCATED),
+    ((*TESSELLATION, "located.frag"), LOCATED),
+    (("levels.vert",), {}),
+    (("levels.vert",), {"TEXTURED": 1}),
     (("evaluate.vert",), degree_defines(**{"": (0, 0)})),
     (("evaluate.vert",), EVALUATE),
     (("evaluate.vert",), degree_defines(**{"": (9, 1)})),

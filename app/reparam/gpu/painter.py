@@ -28,11 +28,12 @@ from ..scenes.layers import (
     Patches,
     Space,
 )
+from .adaptive import Tolerance
 from .context import Capabilities, capabilities
 from .evaluation import Evaluation
 from .programs import Programs
 from .region import Region
-from .surfaces import Surfaces
+from .surfaces import Fine, Surfaces
 from .targets import Target
 
 if TYPE_CHECKING:
@@ -230,12 +231,13 @@ class Painter:
         camera = panel.camera
         match layer:
             case Patches():
-                self.surfaces.draw(layer, camera, evaluator, display.level)
+                viewport = (panel.region.width, panel.region.height)
+                off = display.tolerance
+                fine: Fine = Tolerance(off, viewport) if off else display.level
+                self.surfaces.draw(layer, camera, evaluator, fine)
                 if display.wireframe:
                     nearer = camera.nearer(1e-3)
-                    self.surfaces.draw_wireframe(
-                        layer, nearer, evaluator, display.level, palette.INK
-                    )
+                    self.surfaces.draw_wireframe(layer, nearer, evaluator, fine, palette.INK)
             case ControlNet() if not display.net:
                 pass
             case Label() | Handles():

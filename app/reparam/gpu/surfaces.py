@@ -14,6 +14,7 @@ from ..errors import GraphicsError
 from ..geometry.camera import Camera
 from ..geometry.evaluate import grid_parameters
 from ..scenes.layers import Color, Patches
+from .adaptive import HARDWARE_LEVEL, SOFTWARE_CHUNK, Adaptive, Tolerance
 from .context import Capabilities
 from .evaluation import FLOATS, Evaluation, orders, patch_count
 from .kept import Kept
@@ -24,8 +25,8 @@ Array = NDArray[np.float64]
 
 BATCH_VERTICES = 1 << 18  # evaluated and drawn at a time
 KEPT_BYTES = 1 << 29  # a layer that needs more is evaluated anew for each frame
-HARDWARE_LEVEL = 64  # what every OpenGL 4 promises; above, a patch is drawn in tiles
-SOFTWARE_CHUNK = 64  # llvmpipe's tessellator is quadratic in the patches of one draw
+
+Fine = int | Tolerance  # steps in u and in v of every patch, or what a drawn point may be off
 
 grid = lru_cache(maxsize=16)(grid_parameters)
 
@@ -53,28 +54,45 @@ class Surfaces:
         self._evaluation = evaluation
         self._chunk = SOFTWARE_CHUNK if capabilities.software else 1 << 20
         self.pictures = Pictures(ctx, capabilities)
+        self.adaptive = Adaptive(ctx, programs, evaluation, capabilities)
         self._batches: Kept[list[Batch]] = Kept(_release)
         self._indices: dict[tuple[int, int], moderngl.Buffer] = {}
 
-    def draw(self, layer: Patches, camera: Camera, evaluator: str, level: int) -> None:
+    def draw(self, layer: Patches, camera: Camera, evaluator: str, fine: Fine) -> None:
         """The layer as its picture, colour and light say."""
-        path = {"vertex": self._draw_meshes, "tessellation": self._draw_tessellated}[evaluator]
-        path(layer, camera, level, layer.color, False)
+        self._draw(layer, camera, evaluator, fine, layer.color, False)
 
     def draw_wireframe(
-        self, layer: Patches, camera: Camera, evaluator: str, level: int, color: Color
+        self, layer: Patches, camera: Camera, evaluator: str, fine: Fine, color: Color
     ) -> None:
         """The edges of the triangles that `draw` draws."""
-        path = {"vertex": self._draw_meshes, "tessellation": self._draw_tessellated}[evaluator]
         self._ctx.wireframe = True
         try:
-            path(layer, camera, level, color, True)
+            self._draw(layer, camera, evaluator, fine, color, True)
         finally:
             self._ctx.wireframe = False
+
+    def _draw(
+        self, layer: Patches, camera: Camera, evaluator: str, fine: Fine, color: Color, bare: bool
+    ) -> None:
+        if isinstance(fine, Tolerance):
+            self.adaptive.draw(
+                layer,
+                evaluator,
+                self.adaptive.plan(layer, camera, fine),
+                "patch.frag",
+                self._defines(layer, bare),
+                lambda program: self.set_common(program, layer, camera, color),
+            )
+        elif evaluator == "vertex":
+            self._draw_meshes(layer, camera, fine, color, bare)
+        else:
+            self._draw_tessellated(layer, camera, fine, color, bare)
 
     def sweep(self) -> None:
         """End of a frame."""
         self._batches.sweep()
+        self.adaptive.sweep()
 
     def forget(self) -> None:
         """Drop what older shaders evaluated."""

@@ -14,6 +14,9 @@ class Display:
     """Settings shared by all scenes, set like a scene's own parameters."""
 
     level: Annotated[int, Range(1, 1024), "tessellation level: steps in u and in v"] = 32
+    tolerance: Annotated[
+        float, Range(0, 64, 0.5), "pixels that a drawn point may be off; 0: the level decides"
+    ] = 0.0
     wireframe: Annotated[bool, "the triangles' edges over the surface"] = False
     net: Annotated[bool, "the control net"] = False
     handles: Annotated[bool, "the points that a hand can drag in the window"] = False

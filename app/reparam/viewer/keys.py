@@ -41,6 +41,7 @@ GROUPS: tuple[tuple[str, tuple[Key | Gesture, ...]], ...] = (
             Key(("D",), "the domain and the texture beside the picture", "toggle_linked"),
             Key(("N",), "control net", "toggle_net"),
             Key(("W",), "wireframe", "toggle_wireframe"),
+            Key(("A",), "as fine as half a pixel asks for, or one level", "toggle_tolerance"),
             Key(("+", "-"), "tessellation level, finer and coarser", "change_level", (1, -1)),
             Key(("E",), "evaluator: vertex shader, or tessellation", "next_evaluator"),
         ),

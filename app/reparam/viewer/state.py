@@ -19,6 +19,8 @@ from ..subject import Subject, open_subject, scene_subject
 from .history import History, Moment
 
 LEVELS = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256)
+TOLERANCES = (0.125, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0)
+HALF_A_PIXEL = 0.5
 CHECKS = (2, 4, 8, 16, 32)
 NOTICE_SECONDS = 2.5
 ANIMATION_SECONDS = 3.0  # from one end to the other
@@ -124,12 +126,18 @@ class State:
         """The triangles' edges, on or off."""
         self._cycle("wireframe")
 
+    def toggle_tolerance(self) -> None:
+        """As finely as each patch needs in this view, or one level for all."""
+        self._tell("tolerance", 0.0 if self.subject.value("tolerance") else HALF_A_PIXEL)
+
     def change_level(self, direction: int) -> None:
-        """The next finer or coarser tessellation level."""
-        now = self.subject.value("level")
-        finer = [n for n in LEVELS if n > now] or [now]
-        coarser = [n for n in LEVELS if n < now] or [now]
-        self._tell("level", finer[0] if direction > 0 else coarser[-1])
+        """The next finer or coarser tessellation level, or tolerance if that decides."""
+        name = "tolerance" if self.subject.value("tolerance") else "level"
+        now = self.subject.value(name)
+        steps = LEVELS if name == "level" else TOLERANCES
+        larger = next((n for n in steps if n > now), now)
+        smaller = next((n for n in reversed(steps) if n < now), now)
+        self._tell(name, larger if (direction > 0) == (name == "level") else smaller)
 
     def next_evaluator(self) -> None:
         """The other evaluator, if this OpenGL has it."""

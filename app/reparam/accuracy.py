@@ -1,0 +1,80 @@
+"""`reparam accuracy`: how far off drawn points are, in pixels, measured at every fragment."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from .gpu.accuracy import deviations
+from .gpu.adaptive import Tolerance, uniform_plan
+from .gpu.painter import arrange
+from .scenes.layers import Patches
+from .snapshot import Studio
+from .subject import Subject
+
+FORGIVEN = 1e-4  # share of the fragments: triangles thinner than the rasteriser's grid
+
+
+@dataclass(frozen=True)
+class Accuracy:
+    """A layer drawn alone: pixels between a fragment's centre and the exact surface point of its
+    own patch and (u, v). That bounds the outline's deviation too."""
+
+    layer: int
+    evaluator: str
+    patches: int  # in view
+    triangles: int
+    fragments: int
+    mean: float
+    most: float  # of all fragments but the FORGIVEN share
+    worst: float
+    tolerance: float  # 0: one level, and nothing is promised
+
+    @property
+    def ok(self) -> bool:
+        """Whether the tolerance is kept."""
+        return not self.tolerance or self.most <= self.tolerance
+
+    def row(self) -> dict[str, Any]:
+        """As JSON has it."""
+        return {**asdict(self), "ok": self.ok}
+
+    def line(self) -> str:
+        """As the table has it."""
+        asked = f"<= {self.tolerance:g}" if self.tolerance else "one level"
+        verdict = "ok  " if self.ok else "FAIL"
+        return (
+            f"{verdict} layer {self.layer} {self.evaluator:12} {self.patches:6} patches "
+            f"{self.triangles:9} triangles {self.fragments:8} fragments   "
+            f"pixels off: mean {self.mean:.4f}  most {self.most:.4f}  worst {self.worst:.4f}"
+            f"   {asked}"
+        )
+
+
+def measure(studio: Studio, subject: Subject, size: tuple[int, int]) -> Iterator[Accuracy]:
+    """Each Patches layer of the subject, framed as `--plain` does, by the studio's evaluator, or
+    by each that there is."""
+    painter, display = studio.painter, subject.display
+    panel = arrange(subject.figure().plain(), size, subject.views, True, False)[0]
+    if studio.evaluator:
+        evaluators: tuple[str, ...] = (painter.capabilities.evaluator(studio.evaluator),)
+    else:
+        evaluators = ("vertex", "tessellation")[: 1 + painter.capabilities.tessellation]
+    layers = [layer for layer in panel.space.layers if isinstance(layer, Patches)]
+    for number, layer in enumerate(layers, start=1):
+        plan = (
+            painter.surfaces.adaptive.plan(layer, panel.camera, Tolerance(display.tolerance, size))
+            if display.tolerance
+            else uniform_plan(layer, display.level)
+        )
+        for evaluator in evaluators:
+            off = deviations(painter, layer, panel.camera, evaluator, plan, size)
+            off = off if len(off) else np.zeros(1)
+            most = float(np.quantile(off, 1.0 - FORGIVEN))
+            yield Accuracy(
+                number, evaluator, len(plan.patches), plan.triangles(), len(off),
+                float(off.mean()), most, float(off.max()), display.tolerance,
+            )  # fmt: skip

@@ -1,0 +1,67 @@
+"""How finely each patch of a layer is to be drawn in a view (levels.vert), asked on the GPU."""
+
+from __future__ import annotations
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ..geometry.camera import Camera
+from ..scenes.layers import Patches
+from .evaluation import Evaluation, orders, patch_count
+from .nets import NET_UNIT
+from .programs import Programs
+
+MAP_UNIT = NET_UNIT - 1
+
+
+class Fineness:
+    """Runs the bound of geometry/levels.py over all patches of a layer at once."""
+
+    def __init__(self, ctx: moderngl.Context, programs: Programs, evaluation: Evaluation) -> None:
+        self._ctx = ctx
+        self._programs = programs
+        self._evaluation = evaluation
+
+    def run(
+        self, layer: Patches, camera: Camera, viewport: tuple[int, int], tolerance: float
+    ) -> moderngl.Buffer:
+        """Steps in u and v of each patch, float32 (patches, 2); (0, 0) for one out of view."""
+        # By its own position a map is off as much as the point is: the picture stays in place.
+        sought = layer.texture.net if layer.texture else layer.net
+        textured = sought is not layer.net
+        program = self._programs.get(
+            "levels.vert", defines={"TEXTURED": 1} if textured else {}, varyings=("steps",)
+        )
+        self._evaluation.texture(layer.net).use(NET_UNIT)
+        program.set(
+            clip_from_model=camera.clip_from_model().T.astype(np.float32).tobytes(),
+            half_size=(viewport[0] / 2.0, viewport[1] / 2.0),
+            tolerance=tolerance,
+            position_net=NET_UNIT,
+            position_degree=orders(layer.net),
+        )
+        if textured:
+            self._evaluation.texture(sought).use(MAP_UNIT)
+            program.set(
+                texture_net=MAP_UNIT,
+                texture_degree=orders(sought),
+                texture_stride=0 if patch_count(sought) == 1 else 1,
+            )
+        count = patch_count(layer.net)
+        numbers = self._ctx.buffer(np.arange(count, dtype=np.int32).tobytes())
+        vertices = self._ctx.vertex_array(program.ready(), [(numbers, "1i", "patch_index")])
+        captured = self._ctx.buffer(reserve=8 * count)
+        vertices.transform(captured, moderngl.POINTS, count)
+        vertices.release()
+        numbers.release()
+        return captured
+
+    def read(
+        self, layer: Patches, camera: Camera, viewport: tuple[int, int], tolerance: float
+    ) -> NDArray[np.int64]:
+        """The same handed back: (patches, 2)."""
+        captured = self.run(layer, camera, viewport, tolerance)
+        steps = np.frombuffer(captured.read(), np.float32).reshape(-1, 2)
+        captured.release()
+        return steps.astype(np.int64)

@@ -1,0 +1,81 @@
+"""The GPU's levels against geometry/levels.py."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from truth import random_nets
+
+from reparam.geometry.camera import Camera, View, frame
+from reparam.geometry.evaluate import sample_surface
+from reparam.geometry.levels import balance, level_coefficients, out_of_view, pixels_a_unit
+from reparam.geometry.net import Array
+from reparam.gpu.fineness import Fineness
+from reparam.scenes.layers import Patches, Picture, Texture
+from reparam.snapshot import Studio
+
+SIZE = (640, 400)
+HALF = (320.0, 200.0)
+TOLERANCE = 0.5
+
+
+@pytest.fixture
+def fineness(studio: Studio) -> Fineness:
+    return Fineness(studio.ctx, studio.painter.programs, studio.painter.evaluation)
+
+
+def view(net: Array, zoom: float = 1.0) -> Camera:
+    return frame(sample_surface(net), *SIZE, View(zoom=zoom), True)
+
+
+def clip(net: Array, camera: Camera) -> Array:
+    return np.asarray(net @ camera.clip_from_model().T)
+
+
+@pytest.mark.parametrize("degrees", [(1, 1), (2, 2), (3, 1), (4, 6), (0, 2), (31, 5)])
+@pytest.mark.parametrize("rational", [False, True])
+def test_steps(fineness: Fineness, degrees: tuple[int, int], rational: bool) -> None:
+    nets = random_nets(np.random.default_rng(degrees), degrees, rational, 30)
+    camera = view(nets)
+    found = fineness.read(Patches(nets), camera, SIZE, TOLERANCE)
+    need = level_coefficients(clip(nets, camera), HALF, TOLERANCE)
+    expected = balance(need)
+    assert (np.abs(found - expected) <= np.maximum(1, expected // 500)).all()  # ceil of float32
+    assert (found == expected).mean() > 0.8
+
+
+@pytest.mark.parametrize("shared", [False, True])
+def test_a_map_adds_its_own(fineness: Fineness, shared: bool) -> None:
+    random = np.random.default_rng(3)
+    nets = random_nets(random, (1, 2), True, 20)
+    maps = random_nets(random, (3, 2), True, 1 if shared else 20)
+    camera = view(nets)
+    layer = Patches(nets, Texture(maps[0] if shared else maps, Picture()))
+    found = fineness.read(layer, camera, SIZE, TOLERANCE)
+    seen = clip(nets, camera)
+    unit = pixels_a_unit(seen, maps, HALF)
+    reach = np.abs(maps[..., :2] / maps[..., 3:]).max((-1, -2, -3))
+    own = np.stack(
+        [
+            level_coefficients(m, (float(k), float(k)), TOLERANCE, float(r))
+            for m, k, r in zip(
+                np.broadcast_to(maps, (20, *maps.shape[1:])),
+                unit,
+                np.broadcast_to(reach, 20),
+                strict=True,
+            )
+        ]
+    )
+    expected = balance(level_coefficients(seen, HALF, TOLERANCE) + own)
+    assert (np.abs(found - expected) <= np.maximum(1, expected // 500)).all()
+    assert (expected.prod(-1) > balance(level_coefficients(seen, HALF, TOLERANCE)).prod(-1)).all()
+
+
+def test_out_of_view(fineness: Fineness) -> None:
+    nets = random_nets(np.random.default_rng(4), (2, 2), True, 400)
+    nets[..., :3] += nets[..., 3:] * np.random.default_rng(5).uniform(-9, 9, (400, 1, 1, 3))
+    camera = view(nets, zoom=4.0)
+    found = fineness.read(Patches(nets), camera, SIZE, TOLERANCE)
+    gone = out_of_view(clip(nets, camera))
+    assert ((found == 0).all(-1) == gone).all()
+    assert 0.3 < gone.mean() < 0.99

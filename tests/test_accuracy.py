@@ -1,0 +1,48 @@
+"""`reparam accuracy`: each fragment against float64, as a table and as JSON."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from reparam.accuracy import Accuracy
+from reparam.cli import main
+
+
+def rows(capsys: pytest.CaptureFixture[str], *words: str) -> list[dict[str, float]]:
+    main(["accuracy", *words, "--json", "--size", "256x256"])
+    found: list[dict[str, float]] = json.loads(capsys.readouterr().out)
+    return found
+
+
+def test_a_tolerance_is_kept_with_fewer_triangles(capsys: pytest.CaptureFixture[str]) -> None:
+    for row in rows(capsys, "fig5", "--tolerance", "0.5"):
+        assert row["ok"]
+        assert row["most"] <= 0.5
+        assert row["triangles"] < 2048
+        assert row["fragments"] == pytest.approx(20 / 3 / (3 * 1.08) ** 2 * 256**2, rel=0.01)
+
+
+def test_coarse_levels_are_seen(capsys: pytest.CaptureFixture[str]) -> None:
+    """Two steps of x = V (3 - U^2) / 2 are off by up to 1/4 of a unit in x and in y."""
+    (row,) = rows(capsys, "fig5", "--set", "level=2", "--evaluator", "vertex")
+    quarter = 0.25 * 256 / (3 * 1.08)
+    assert quarter * 0.8 < row["most"] <= quarter * 2**0.5
+    (finer,) = rows(capsys, "fig5", "--set", "level=4", "--evaluator", "vertex")
+    assert row["mean"] / finer["mean"] == pytest.approx(4.0, rel=0.05)
+
+
+def test_the_table(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["accuracy", "fig4", "--evaluator", "tessellation"]) == 0
+    (line,) = capsys.readouterr().out.splitlines()
+    assert line.startswith("ok   layer 1 tessellation")
+    assert line.endswith("one level")
+
+
+def test_a_broken_promise_fails() -> None:
+    kept = Accuracy(1, "vertex", 1, 2, 3, 0.1, 0.5, 0.9, 0.5)
+    assert kept.ok
+    broken = Accuracy(1, "vertex", 1, 2, 3, 0.1, 0.51, 0.9, 0.5)
+    assert not broken.ok
+    assert broken.line().startswith("FAIL")
