@@ -75,7 +75,7 @@ def test_list_json(capsys: pytest.CaptureFixture[str]) -> None:
     for row in rows:
         assert row.keys() == {"scene", "title", "figure", "parameters"}
         for parameter in row["parameters"]:
-            keys = {"name", "type", "choices", "range", "shape", "default", "help"}
+            keys = {"name", "type", "choices", "presets", "range", "shape", "default", "help"}
             assert parameter.keys() == keys
             assert parameter["help"]
             assert parameter["type"] in ("choice", "bool", "int", "float", "str", "points")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reparam.geometry.regions import Mask, count_regions, label_regions
+from reparam.geometry.regions import Mask, count_regions, label_regions, region_centers
 
 CORNER = """
 ####....
@@ -107,3 +107,10 @@ def test_a_long_winding_region_is_one() -> None:
     assert len(np.unique(label_regions(snake))) == 2
     snake[21] = False
     assert len(np.unique(label_regions(snake))) == 3
+
+
+def test_centers() -> None:
+    seen = np.zeros((9, 12), bool)
+    seen[1:4, 2:5] = True
+    seen[6, 7:11] = True
+    assert region_centers(seen).tolist() == [[2.5, 3.5], [6.5, 9.0]]

@@ -261,7 +261,7 @@ def parse(text: str, names: tuple[str, ...] = ("u",)) -> Formula:
 def _with_products(text: str, names: tuple[str, ...]) -> str:
     """The stars that paper leaves out: 2u, 2 (u+1), pi u, (u+1)(u-1)."""
     number = r"(?<![\w.])(?:\d+\.?\d*|\.\d+)(?!\.|e[+-]?\d|\d)(?=\s*[a-z(])"
-    name = rf"\b(?:{'|'.join(names)})(?=\s*\(|\s+[a-z\d])"
+    name = rf"(?<![A-Za-z_])(?:{'|'.join(names)})(?=\s*\(|\s+[a-z\d])"
     return re.sub(rf"{number}|{name}|\)(?=\s*[\w(])", r"\g<0>*", text)
 
 

@@ -39,3 +39,13 @@ def count_regions(mask: Mask, smallest: float = 0.0) -> int:
     labels = label_regions(core)
     _, sizes = np.unique(labels[labels >= 0], return_counts=True)
     return int(np.count_nonzero(sizes > smallest))
+
+
+def region_centers(mask: Mask) -> NDArray[np.float64]:
+    """The mean (row, column) of each component's pixel centres, shape (components, 2)."""
+    labels = label_regions(mask)
+    rows, columns = np.nonzero(labels >= 0)
+    _, which = np.unique(labels[rows, columns], return_inverse=True)
+    sizes = np.bincount(which)
+    sums = [np.bincount(which, at + 0.5) for at in (rows, columns)]
+    return np.stack(sums, -1) / sizes[:, None]

@@ -249,7 +249,10 @@ class Space:
 
 @dataclass(frozen=True)
 class Figure:
-    """A picture: spaces side by side, the last one showing the subject, and a caption beneath."""
+    """A picture: spaces side by side and a caption beneath.
+
+    The subject is the last space that is no plot and no domain, if there is another.
+    """
 
     spaces: tuple[Space, ...]
     caption: tuple[str, ...] = ()
@@ -259,7 +262,8 @@ class Figure:
 
         A subject without patches keeps its curves, polylines and dots, and its bounds.
         """
-        subject = self.spaces[-1]
+        subjects = [s for s in self.spaces if not s.name.startswith(("domain", "plot"))]
+        subject = (subjects or self.spaces)[-1]
         patches = tuple(layer for layer in subject.layers if isinstance(layer, Patches))
         if not patches:
             lines = (Curves, Polylines, Dots, Parametric, Traced)

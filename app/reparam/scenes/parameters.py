@@ -23,11 +23,22 @@ Value = Any
 
 @dataclass(frozen=True)
 class Range:
-    """Smallest and largest allowed value, both included; `step` is one key press."""
+    """Smallest and largest allowed value, both included; `step` is one key press.
+
+    A `clock` runs evenly from low to high and begins again; others are moved to and fro.
+    """
 
     low: float
     high: float
     step: float = 1.0
+    clock: bool = False
+
+
+@dataclass(frozen=True)
+class Presets:
+    """Marks a text of which some are known by name; others mean something too."""
+
+    names: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -97,6 +108,7 @@ class Parameter:
     picture: bool = False  # the name of a picture file
     points: Points | None = None  # an array
     form: Form | None = None  # of a text
+    presets: tuple[str, ...] = ()  # texts with a name; the scene says what others it takes
 
     def expected(self) -> str:
         """The values it takes, in words."""
@@ -106,6 +118,8 @@ class Parameter:
             return self.form.expected
         if self.choices:
             return " or ".join(self.choices)
+        if self.presets:
+            return f"{', '.join(self.presets)} or another text"
         if self.type is bool:
             return "0 or 1"
         kind = {int: "a whole number", float: "a number", str: "a text"}[self.type]
@@ -118,6 +132,7 @@ class Parameter:
             "name": self.name,
             "type": "points" if self.points else "choice" if self.choices else self.type.__name__,
             "choices": list(self.choices) or None,
+            "presets": list(self.presets) or None,
             "range": interval,
             "shape": list(self.points.shape) if self.points else None,
             "default": self.plain(self.default),
@@ -186,8 +201,9 @@ class Parameter:
 
     def following(self, value: Value) -> Value:
         """The next choice, the other truth, or one step up, coming round at the end."""
-        if self.choices:
-            return self.choices[(self.choices.index(value) + 1) % len(self.choices)]
+        names = self.choices or self.presets
+        if names:
+            return names[(names.index(value) + 1) % len(names) if value in names else 0]
         if self.type is bool:
             return not value
         assert self.range is not None, f"{self.name} has no step"
@@ -229,7 +245,10 @@ def _parameter(name: str, hint: Any, default: Value) -> Parameter | None:
     text = next((extra for extra in extras if isinstance(extra, str)), "")
     picture = any(isinstance(extra, PictureFile) for extra in extras)
     form = next((extra for extra in extras if isinstance(extra, Form)), None)
-    return Parameter(name, kind, default, choices, interval, text, picture, form=form)
+    presets = next((extra.names for extra in extras if isinstance(extra, Presets)), ())
+    return Parameter(
+        name, kind, default, choices, interval, text, picture, form=form, presets=presets
+    )
 
 
 def find(parameters: Mapping[str, Parameter], name: str) -> Parameter:

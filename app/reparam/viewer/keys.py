@@ -28,6 +28,7 @@ GROUPS: tuple[tuple[str, tuple[Key | Gesture, ...]], ...] = (
         "the scene",
         (
             Key(("T",), "texture map: the identity, or r itself", "next_texture"),
+            Key(("P",), "change of variables", "next_change"),
             Key(("M",), "morph between the square and its image", "glide"),
             Key(("Space",), "animate, or stop", "play"),
             Key(("C",), "checker size", "next_checks"),

@@ -112,6 +112,11 @@ class State:
         if self._has("texture"):
             self._cycle("texture")
 
+    def next_change(self) -> None:
+        """The next change of variables."""
+        if self._has("change"):
+            self._cycle("change")
+
     def next_checks(self) -> None:
         """Checker squares twice as small, coming round."""
         if self._has("checks"):
@@ -221,7 +226,7 @@ class State:
         elif name is None or not self._has(name):
             self.say(f"{self.subject.title}: nothing here is animated")
         else:
-            start, phase = self._now, _unsmooth(self._fraction(name))
+            start, phase = self._now, self._phase(name)
             self._motion = (
                 name,
                 lambda now: self._at(name, phase + (now - start) / ANIMATION_SECONDS),
@@ -429,9 +434,17 @@ class State:
         assert interval is not None
         return float((self.subject.value(name) - interval.low) / (interval.high - interval.low))
 
+    def _phase(self, name: str) -> float:
+        """Where on its way the parameter stands: `_at` gives its value back."""
+        interval = self.subject.parameters()[name].range
+        fraction = self._fraction(name)
+        return fraction if interval is not None and interval.clock else _unsmooth(fraction)
+
     def _at(self, name: str, phase: float) -> float:
         interval = self.subject.parameters()[name].range
         assert interval is not None
+        if interval.clock:
+            return interval.low + (interval.high - interval.low) * (phase % 1.0)
         way = phase % 2.0
         way = 2.0 - way if way > 1.0 else way
         return interval.low + (interval.high - interval.low) * way * way * (3.0 - 2.0 * way)
