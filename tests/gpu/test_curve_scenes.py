@@ -16,6 +16,7 @@ SCENES = [
     ("fig3", "smooth=G2"),
     ("joins", "pieces=arch", "speed=3"),
     ("cusp", "turn=30"),
+    ("pythagorean", "four=1"),
     ("spline", "weights=[1,2,0.5,3,1,0.2,1,1]"),
 ]
 
