@@ -111,7 +111,7 @@ class Mouse:
 
     def scale(self) -> float:
         """Framebuffer pixels for one at content scale 1."""
-        return float(glfw.get_window_content_scale(self._window)[0])
+        return content_scale(self._window)
 
     def _on_enter(self, _: Any, entered: int) -> None:
         self.inside = bool(entered)
@@ -161,3 +161,8 @@ class Mouse:
             right = (x - region.left - region.width / 2) * unit
             up = (y - region.bottom - region.height / 2) * unit
             self._state.zoom(panel.space.name, WHEEL**notches, right, up)
+
+
+def content_scale(window: Any) -> float:
+    """Framebuffer pixels for one at content scale 1."""
+    return max(1.0, float(glfw.get_window_content_scale(window)[0]))

@@ -1,14 +1,11 @@
-"""What the window adds to the frame: handles, a notice, and the help."""
+"""What the window writes over the frame: a notice, the help, a line that is asked for."""
 
 from __future__ import annotations
 
-from dataclasses import replace
-from math import ceil, floor
+from dataclasses import dataclass
 
-from ..gpu.labels import SMALLEST, Labels, measure
-from ..gpu.painter import UNITS, Painter, Panel
-from ..scenes.layers import Handles
-from .hand import Grip, Hand, model_units, snap_step
+from ..gpu.labels import SMALLEST, measure
+from ..gpu.painter import Painter
 from .keys import keys_groups
 from .state import Prompt
 
@@ -20,77 +17,25 @@ HELP_GROUND = (0.10, 0.10, 0.12, 0.95)  # a checkerboard behind small text distu
 CARET = "|"
 PROMPT_HINT = "Enter: set     Esc: leave"
 NOTICE = 1.9  # its height in em
-LARGER = 1.35  # the handle under the mouse
-LEAST = 3.0  # figure units, its radius before that
-MOST = 2000  # handles of a layer that are shown at once
-GRID = (0.0, 0.45, 0.70, 0.16)
-AXIS = (0.0, 0.45, 0.70, 0.45)
 
 
-def draw_handles(painter: Painter, hand: Hand, size: tuple[int, int], quiet: bool) -> None:
-    """All that can be dragged, the quiet ones too if asked; too many only under the mouse."""
-    for panel in hand.panels:
-        for layer in panel.space.layers:
-            if not isinstance(layer, Handles) or not 0 < len(layer.at) <= MOST:
-                continue
-            if quiet or not layer.quiet:
-                _in_panel(painter, panel, layer, size)
+@dataclass(frozen=True)
+class Sheet:
+    """The window's framebuffer: its painter, its size, and its pixels for one at scale 1."""
+
+    painter: Painter
+    size: tuple[int, int]
+    scale: float
+
+    @property
+    def em(self) -> float:
+        """The size of letters in pixels: readable, and larger in a large window."""
+        return max(13.0 * self.scale, min(self.size) / 40)
 
 
-def draw_grip(painter: Painter, hand: Hand, grip: Grip, size: tuple[int, int]) -> None:
-    """The handle under the mouse, larger, and beside it its name and coordinates."""
-    panel, layer = hand.panel(grip.space), hand.layer(grip)
-    if panel is None or layer is None:
-        return
-    radius = LARGER * max(layer.radius, LEAST)
-    _in_panel(painter, panel, replace(layer, radius=radius), size, grip.index)
-    em = 0.9 * _em(size)
-    text = hand.described(grip)
-    width, height = measure(text, round(em)) + em, 1.6 * em
-    x, y = hand.place(grip)
-    gap = radius * min(size) / UNITS + 0.5 * em
-    left = min(max(0.0, x + gap), size[0] - width)
-    bottom = y + gap if y + gap + height < size[1] else y - gap - height
-    painter.labels.box(left, bottom, width, height, size, GROUND)
-    at = (left + em / 2, bottom + height / 2)
-    painter.labels.text(text, at, size, em, INK, anchor=(0.0, 0.5))
-
-
-def draw_grid(labels: Labels, panel: Panel, size: tuple[int, int], scale: float) -> None:
-    """The lines whose crossings Shift snaps to, in a space of the plane."""
-    if panel.space.spatial:
-        return
-    region, camera = panel.region, panel.camera
-    step = snap_step(model_units(panel), scale)
-    middle = (region.left + region.width / 2, region.bottom + region.height / 2)
-    half = (camera.half_width, camera.half_height)
-    unit, thin = model_units(panel), max(1.0, round(scale))
-    for axis in (0, 1):
-        first = ceil((camera.center[axis] - half[axis]) / step)
-        last = floor((camera.center[axis] + half[axis]) / step)
-        for k in range(first, last + 1):
-            at = round(middle[axis] + (k * step - camera.center[axis]) / unit - thin / 2)
-            color = GRID if k else AXIS
-            if axis == 0:
-                labels.box(at, region.bottom, thin, region.height, size, color)
-            else:
-                labels.box(region.left, at, region.width, thin, size, color)
-
-
-def _in_panel(
-    painter: Painter, panel: Panel, layer: Handles, size: tuple[int, int], only: int | None = None
-) -> None:
-    region = panel.region
-    box = (region.left, region.bottom, region.width, region.height)
-    painter.ctx.viewport = painter.ctx.scissor = box
-    painter.strokes.draw_handles(layer, panel.camera, min(size) / UNITS, only)
-    painter.ctx.scissor = None
-    painter.ctx.viewport = (0, 0, *size)
-
-
-def draw_notice(labels: Labels, text: str, size: tuple[int, int]) -> None:
+def draw_notice(sheet: Sheet, text: str) -> None:
     """One line in the upper left corner, where figures have nothing."""
-    em = _em(size)
+    labels, size, em = sheet.painter.labels, sheet.size, sheet.em
     text = _elided(text, round(em), size[0] - 2 * em)
     width = min(measure(text, round(em)) + 2 * em, size[0])
     labels.box(0, size[1] - NOTICE * em, width, NOTICE * em, size, GROUND)
@@ -105,9 +50,9 @@ def draw_notice(labels: Labels, text: str, size: tuple[int, int]) -> None:
     )
 
 
-def draw_prompt(labels: Labels, prompt: Prompt, size: tuple[int, int]) -> None:
+def draw_prompt(sheet: Sheet, prompt: Prompt) -> None:
     """The line that is asked for, with what has been typed so far."""
-    em = _em(size)
+    labels, size, em = sheet.painter.labels, sheet.size, sheet.em
     typed = (prompt.text, 1.0, HEADING) if prompt.offered else (prompt.text + CARET, 1.0, INK)
     rows = ((prompt.title, 0.85, FAINT), typed, (PROMPT_HINT, 0.75, FAINT))
     width = min(size[0], max(measure(row, round(s * em)) for row, s, _ in rows) + 3 * em)
@@ -120,9 +65,9 @@ def draw_prompt(labels: Labels, prompt: Prompt, size: tuple[int, int]) -> None:
         labels.text(row, at, size, share * em, color, anchor=(0.0, 0.5), widest=room)
 
 
-def draw_progress(labels: Labels, name: str, share: float, size: tuple[int, int]) -> None:
+def draw_progress(sheet: Sheet, name: str, share: float) -> None:
     """How far a file is: a line in the upper left corner, filling up."""
-    em = _em(size)
+    labels, size, em = sheet.painter.labels, sheet.size, sheet.em
     doing = "drawing" if share == 1.0 else "opening"
     text = f"{doing} {name}: {100.0 * share:.0f} %     Esc: leave"
     text = _elided(text, round(em), size[0] - 2 * em)
@@ -133,12 +78,13 @@ def draw_progress(labels: Labels, name: str, share: float, size: tuple[int, int]
     labels.text(text, at, size, em, INK, anchor=(0.0, 0.5), widest=size[0] - 2 * em)
 
 
-def draw_help(labels: Labels, size: tuple[int, int]) -> None:
+def draw_help(sheet: Sheet) -> None:
     """The keys grouped by purpose, in two columns, as large as fits beneath the notice's line."""
-    room = size[1] - NOTICE * _em(size)
+    labels, size = sheet.painter.labels, sheet.size
+    room = size[1] - NOTICE * sheet.em
     columns = _columns()
     lines = max(sum(len(rows) + 1.6 for _, rows in column) for column in columns)
-    em = min(_em(size), room / (1.4 * lines + 1.4), 0.98 * size[0] / _help_width(1.0))
+    em = min(sheet.em, room / (1.4 * lines + 1.4), 0.98 * size[0] / _help_width(1.0))
     if em < SMALLEST:
         return
     width, height = _help_width(em), (1.4 * lines + 1.0) * em
@@ -195,7 +141,3 @@ def _elided(text: str, pixels: int, widest: float) -> str:
 def _widest(texts: list[str]) -> float:
     """In em; a little more than measured, for what rounding to whole pixels adds."""
     return max(measure(text, 100) for text in texts) / 100 * 1.04
-
-
-def _em(size: tuple[int, int]) -> float:
-    return max(13.0, min(size) / 40)

@@ -18,19 +18,12 @@ from ..gpu.painter import Painter, Panel
 from ..gpu.targets import Target
 from ..scenes.layers import Handles
 from ..subject import Subject
+from .grips import draw_grid, draw_grip, draw_handles
 from .keeping import Keeping
 from .keyboard import Keyboard
 from .loading import Loading, Opener
-from .mouse import Mouse
-from .overlay import (
-    draw_grid,
-    draw_grip,
-    draw_handles,
-    draw_help,
-    draw_notice,
-    draw_progress,
-    draw_prompt,
-)
+from .mouse import Mouse, content_scale
+from .overlay import Sheet, draw_help, draw_notice, draw_progress, draw_prompt
 from .screen import screen_missing
 from .state import State
 
@@ -77,7 +70,8 @@ def wait_for(loading: Loading, window: Any, painter: Painter) -> bool:
         size = glfw.get_framebuffer_size(window)
         if min(size) > 0:
             painter.clear_screen(size)
-            draw_progress(painter.labels, loading.name, 1.0 if done else loading.share, size)
+            sheet = Sheet(painter, size, content_scale(window))
+            draw_progress(sheet, loading.name, 1.0 if done else loading.share)
             glfw.swap_buffers(window)
         glfw.wait_events_timeout(0.0 if done else PROGRESS_SECONDS)
     return True
@@ -219,27 +213,28 @@ class Viewer:
         """The frame onto the screen, and over it what only the window has."""
         self.state.refresh = False
         target.show()
-        self._draw_hand(target.size)
+        sheet = Sheet(self._painter, target.size, self._mouse.scale())
+        self._draw_hand(sheet)
         if self.state.help:
-            draw_help(self._painter.labels, target.size)
+            draw_help(sheet)
         if (prompt := self.state.prompt) is not None:
-            draw_prompt(self._painter.labels, prompt, target.size)
+            draw_prompt(sheet, prompt)
         if self.state.notice:
-            draw_notice(self._painter.labels, self.state.notice, target.size)
+            draw_notice(sheet, self.state.notice)
         if (loading := self.keeping.loading) is not None:
-            draw_progress(self._painter.labels, loading.name, loading.share, target.size)
+            draw_progress(sheet, loading.name, loading.share)
         glfw.swap_buffers(self._window)
 
-    def _draw_hand(self, size: tuple[int, int]) -> None:
+    def _draw_hand(self, sheet: Sheet) -> None:
         """The handles, while somebody is there to drag them."""
         hand, display = self._mouse.hand, self.state.subject.display
         if self._mouse.inside or hand.held or display.net:
-            draw_handles(self._painter, hand, size, display.net)
+            draw_handles(sheet, hand, display.net)
         if (grip := hand.chosen if hand.held else hand.over) is not None:
             panel = hand.panel(grip.space)
             if hand.snapping and panel is not None:
-                draw_grid(self._painter.labels, panel, size, self._mouse.scale())
-            draw_grip(self._painter, hand, grip, size)
+                draw_grid(sheet, panel)
+            draw_grip(sheet, hand, grip)
 
     def type_value(self) -> None:
         """Ask for the coordinates of a point, or for a parameter."""
