@@ -324,6 +324,11 @@ def test_a_notice_disappears_in_time(capsys: pytest.CaptureFixture[str]) -> None
     state = opened()
     state.advance(10.0)
     state.say("here", 2.0)
+    state.advance(60.0)  # as long as drawing may take
+    assert state.notice == "here"
+    state.advance(10.0)
+    state.presented(10.0)
+    state.presented(10.5)  # it began when it was seen first
     assert capsys.readouterr().out == "here\n"
     state.advance(11.0)
     assert (state.notice, state.seconds_of_notice()) == ("here", pytest.approx(1.0))

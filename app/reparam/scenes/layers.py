@@ -13,7 +13,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.evaluate import sample_surface
+from ..geometry.evaluate import evaluate, project, sample_surface
 from ..geometry.formula import Formula
 
 Array = NDArray[np.float64]
@@ -275,8 +275,13 @@ class Figure:
 
 
 def including(bounds: Array, net: Array) -> Array:
-    """Bounds (k, 3) of a viewport that shows what `bounds` (2, 3) does and all of a patch."""
-    return np.concatenate([bounds, sample_surface(net)])
+    """Bounds (k, 3) of a viewport that shows what `bounds` (2, 3) does and all of a patch.
+
+    The patch is sampled; what may stand out between the samples has room in the margin.
+    """
+    t = np.linspace(0.0, 1.0, 17)
+    points = project(evaluate(net, *np.meshgrid(t, t, indexing="ij")))
+    return np.concatenate([bounds, points.reshape(-1, 3)])
 
 
 def plane(x0: float, y0: float, x1: float, y1: float) -> Array:

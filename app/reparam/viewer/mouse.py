@@ -26,6 +26,7 @@ class Mouse:
         self._panels: list[Panel] = []
         self._units: dict[str, float] = {}  # model units a pixel, by the space, at zoom 1
         self._at: tuple[float, float] = glfw.get_cursor_pos(window)  # as the events tell it
+        self._seen_at = (0.0, 0.0)  # where the mouse was when a view followed it last, in pixels
         self._held: tuple[str, bool] | None = None  # a space's name, and whether it is only moved
         self._divides: Region | None = None  # the region whose divider is dragged
         self._cursors: dict[int | None, Any] = {}
@@ -77,7 +78,9 @@ class Mouse:
             shift = (glfw.KEY_LEFT_SHIFT, glfw.KEY_RIGHT_SHIFT)
             snap = any(glfw.get_key(self._window, key) == glfw.PRESS for key in shift)
             self.hand.drag(*self._pixel(), self.scale(), snap)
-        elif self._held is None:
+        elif self._held is not None:
+            self._move_view(*self._held)
+        else:
             self.hand.point_at(*self._pixel(), self.scale())
             self._pointer.point_at(self._panels, *self._pixel())
         self._show_cursor()
@@ -135,17 +138,20 @@ class Mouse:
         panel = self._panel_here() if action == glfw.PRESS else None
         moves = button != glfw.MOUSE_BUTTON_LEFT or bool(mods & glfw.MOD_SHIFT)
         self._held = (panel.space.name, moves) if panel else None
+        self._seen_at = self._pixel()
 
     def _on_move(self, _: Any, x: float, y: float) -> None:
-        before = self._pixel()
-        self._at = (x, y)
-        after = self._pixel()
+        self._at = (x, y)  # a mouse tells a thousand times a second; it is acted on once a frame
         self._unsettled = True
-        name, moves = self._held or ("", False)
+
+    def _move_view(self, name: str, moves: bool) -> None:
+        """Turn or move a space by the way since it was done last."""
+        before, after = self._seen_at, self._pixel()
+        self._seen_at = after
         panel = next((panel for panel in self._panels if panel.space.name == name), None)
-        if self._held is None or panel is None:
-            return
         dx, dy = after[0] - before[0], after[1] - before[1]
+        if panel is None or dx == dy == 0.0:
+            return
         if panel.space.spatial and not moves:
             turn = DEGREES_A_WINDOW / min(panel.region.width, panel.region.height)
             self._state.orbit(name, -dx * turn, -dy * turn)
@@ -154,6 +160,7 @@ class Mouse:
             self._state.pan(name, dx * unit, dy * unit)
 
     def _on_scroll(self, _: Any, __: float, notches: float) -> None:
+        self.settle()
         panel = self._panel_here()
         if panel is not None:
             region, unit = panel.region, self._unit(panel.space.name)

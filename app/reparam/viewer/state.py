@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from math import asin, sin
+from math import asin, inf, sin
 from typing import Any
 
 import numpy as np
@@ -58,7 +58,7 @@ class State:
         self.changed = True
         self.refresh = False
         self.notice = ""
-        self._notice_until = 0.0
+        self._notice_until = self._notice_seconds = 0.0
         self._now = 0.0
         self._motion: tuple[str, Motion] | None = None  # of the parameter of that name
         self._visited: dict[str, tuple[Subject, dict[str, View]]] = {}
@@ -82,7 +82,13 @@ class State:
 
     def seconds_of_notice(self) -> float:
         """How long the notice is still to be seen."""
-        return max(0.0, self._notice_until - self._now) if self.notice else 0.0
+        left = min(self._notice_until - self._now, self._notice_seconds)
+        return max(0.0, left) if self.notice else 0.0
+
+    def presented(self, now: float) -> None:
+        """The notice is on the screen: its time begins, however long the drawing took."""
+        if self._notice_until == inf:
+            self._notice_until = now + self._notice_seconds
 
     def advance(self, now: float) -> None:
         """The clock stands at `now` seconds."""
@@ -101,7 +107,7 @@ class State:
     def say(self, text: str, seconds: float = NOTICE_SECONDS) -> None:
         """Show one line for a moment; it is printed too."""
         self.notice = text
-        self._notice_until = self._now + seconds
+        self._notice_seconds, self._notice_until = seconds, inf  # `presented` says when it begins
         self.refresh = True
         print(text, flush=True)
 

@@ -224,6 +224,7 @@ class Viewer:
         if (loading := self.keeping.loading) is not None:
             draw_progress(sheet, loading.name, loading.share)
         glfw.swap_buffers(self._window)
+        self.state.presented(time.perf_counter() - self._began)
 
     def _draw_hand(self, sheet: Sheet) -> None:
         """The handles, while somebody is there to drag them."""
