@@ -18,6 +18,7 @@ from PIL import Image
 from reparam.assets import texture_path
 from reparam.cli import main
 from reparam.errors import UsageError
+from reparam.gallery import plates
 from reparam.scenes.claims import Claim
 from reparam.scenes.registry import load_scene, scene_names
 from reparam.snapshot import Studio
@@ -105,8 +106,8 @@ def test_without_a_command_and_a_screen_the_figures_are_written(
     assert main([]) == 0
     folder = out.parent / "figures"
     assert str(folder) in capsys.readouterr().out
-    stems = {path.stem.partition("-")[0] for path in folder.glob("*.png")}
-    assert stems == set(scene_names())
+    stems = {path.stem for path in folder.glob("*.png")}
+    assert stems == {name for name, _ in plates()}
 
 
 def test_check(capsys: pytest.CaptureFixture[str]) -> None:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
+import numpy as np
 from PIL import Image
 
 FOLDER = Path(__file__).parent
@@ -29,6 +31,16 @@ def corners(cell: int = 64) -> Image.Image:
     return image
 
 
+def waves(size: int = 64) -> Image.Image:
+    """The picture of texturesurf.c (OpenGL Programming Guide): three waves, one a colour; the
+    first index of its array runs upwards."""
+    t = 2.0 * math.pi * np.arange(size) / size
+    i, j = np.meshgrid(t, t, indexing="ij")
+    channels = [1.0 + np.sin(i), 1.0 + np.cos(2.0 * j), 1.0 + np.cos(i + j)]
+    pixels = (127.0 * np.stack(channels, -1)).astype(np.uint8)
+    return Image.fromarray(pixels[::-1].copy())
+
+
 if __name__ == "__main__":
-    for make in (checkerboard, corners):
+    for make in (checkerboard, corners, waves):
         make().save(FOLDER / f"{make.__name__}.png", optimize=True)

@@ -6,7 +6,9 @@ The numbers in brackets are those of Mesa 22.3 and are not wanted.
 from __future__ import annotations
 
 import gc
+import re
 from collections.abc import Iterator
+from pathlib import Path
 
 import moderngl
 import numpy as np
@@ -357,10 +359,26 @@ def test_collections_are_drawn_too(gl: Evaluators, screen: moderngl.Framebuffer)
 
 
 @pytest.mark.usefixtures("screen")
+@pytest.mark.parametrize("page", ["docs/porting.md", "README.md"])
+def test_the_pages_examples_run(studio: Studio, page: str) -> None:
+    text = (Path(__file__).parents[2] / page).read_text("utf-8")
+    (block,) = re.findall(r"```python\n(.+?)```", text, re.DOTALL)
+    line = "ctx = moderngl.create_context()"
+    assert line in block or page == "README.md"
+    program = studio.ctx.program(VERTEX, FRAGMENT)
+    names = {"ctx": studio.ctx, "points": np.ones((4, 4, 3)) * SQUARE[1, 1], "program": program}
+    names |= {"P": np.eye(4), "M": np.eye(4)}
+    exec(block.replace(line, ""), names)
+    program.release()
+    if page != "README.md":
+        assert names["mesh"].vertices.shape == (441, 4)
+
+
+@pytest.mark.usefixtures("screen")
 def test_a_recording_is_evaluated_once_and_its_memory_given_back(
     gl: Evaluators, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    evaluation = gl._recordings._painter.evaluation
+    evaluation = gl._painter.evaluation
     runs, released = [], []
     run = evaluation.run
     monkeypatch.setattr(evaluation, "run", lambda *a, **k: runs.append(run(*a, **k)) or runs[-1])
@@ -369,7 +387,7 @@ def test_a_recording_is_evaluated_once_and_its_memory_given_back(
         gl.draw(first, projection=to_clip(0, 1))
         gl.draw(second, projection=to_clip(0, 1))
     assert len(runs) == 2
-    drawables = gl._recordings._kept[first]
+    drawables = gl._painter.recordings._kept[first]
     monkeypatch.setattr(type(drawables[0]), "release", lambda self: released.append(self))
     del first, drawables
     gc.collect()

@@ -62,6 +62,7 @@ SIGNATURES: dict[str, tuple[Any, ...]] = {
     "glLightModelfv": (c_uint, c_void_p),
     "glTexImage2D": (c_uint, *(c_int,) * 5, c_uint, c_uint, c_void_p),
     "glReadPixels": (c_int, c_int, c_int, c_int, c_uint, c_uint, c_void_p),
+    "glLoadMatrixf": (c_void_p,),
     "glShaderSource": (c_uint, c_int, c_void_p, c_void_p),
     "glTransformFeedbackVaryings": (c_uint, c_int, c_void_p, c_uint),
     "glBufferData": (c_uint, ctypes.c_ssize_t, c_void_p, c_uint),

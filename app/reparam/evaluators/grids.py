@@ -155,6 +155,16 @@ def primitive_indices(mode: int, count: int) -> tuple[int, Indices]:
     return GL_TRIANGLES, _halves(a, a + 1, a + 3, a + 2)
 
 
+def chained(segments: Indices) -> tuple[Indices, Array]:
+    """Segments (p, 2) as polylines: the vertices in their order, and for each 1, or 0 where a
+    line begins. A segment that starts where the one before it ends goes on."""
+    begins = np.ones(len(segments), bool)
+    begins[1:] = segments[1:, 0] != segments[:-1, 1]
+    used = np.stack([begins, np.ones(len(segments), bool)], -1)
+    links = np.broadcast_to([0.0, 1.0], used.shape)
+    return segments[used], links[used]
+
+
 def _halves(a: Indices, b: Indices, c: Indices, d: Indices) -> Indices:
     return np.stack([a, b, c, a, c, d], -1).reshape(-1, 3)
 

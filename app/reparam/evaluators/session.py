@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     import moderngl
 
     from ..gpu.painter import Painter
-    from ..gpu.recordings import Recordings
 
 
 class Evaluators(Recorder):
@@ -33,22 +32,21 @@ class Evaluators(Recorder):
         self, ctx: moderngl.Context | None = None, *, painter: Painter | None = None
     ) -> None:
         super().__init__()
-        self._given = ctx if painter is None else painter.ctx
-        self._painter = painter
+        self._given = ctx if painter is None else painter
 
     @cached_property
+    def _painter(self) -> Painter:
+        from ..gpu.context import create_headless
+        from ..gpu.painter import Painter
+
+        if isinstance(self._given, Painter):
+            return self._given
+        return Painter(self._given if self._given is not None else create_headless())
+
+    @property
     def ctx(self) -> moderngl.Context:
         """The context. Raises GraphicsError where OpenGL does not start."""
-        from ..gpu.context import create_headless
-
-        return self._given if self._given is not None else create_headless()
-
-    @cached_property
-    def _recordings(self) -> Recordings:
-        from ..gpu.painter import Painter
-        from ..gpu.recordings import Recordings
-
-        return Recordings(self._painter or Painter(self.ctx))
+        return self._painter.ctx
 
     def read(
         self, recording: Recording | None = None, *, evaluator: str | None = None
@@ -58,7 +56,9 @@ class Evaluators(Recorder):
 
         `evaluator` is "vertex" (the default) or "tessellation".
         """
-        return self._recordings.read(recording or self.take(), evaluator)
+        from ..gpu.evaluated import read_recording
+
+        return read_recording(self._painter, recording or self.take(), evaluator)
 
     def draw(
         self,
@@ -81,10 +81,10 @@ class Evaluators(Recorder):
         """
         recording = recording or self.take()
         if program is not None:
-            self._recordings.draw(recording, program)
+            self._painter.recordings.draw(recording, program)
         else:
             matrices = (_matrix("projection", projection), _matrix("modelview", modelview))
-            self._recordings.draw_built_in(recording, *matrices, light, texture)
+            self._painter.recordings.draw_built_in(recording, *matrices, light, texture)
 
 
 def _matrix(name: str, given: ArrayLike | None) -> Array:

@@ -26,6 +26,7 @@ from ..scenes.layers import (
     Label,
     Layer,
     Patches,
+    Recorded,
     Space,
 )
 from .adaptive import Tolerance
@@ -39,6 +40,7 @@ from .targets import Target
 if TYPE_CHECKING:
     from .comparison import Comparison
     from .labels import Labels
+    from .recordings import Recordings
     from .strokes import Strokes
 
 Array = NDArray[np.float64]
@@ -151,6 +153,13 @@ class Painter:
         return Comparison(self.ctx)
 
     @cached_property
+    def recordings(self) -> Recordings:
+        """What evaluator calls recorded."""
+        from .recordings import Recordings
+
+        return Recordings(self)
+
+    @cached_property
     def labels(self) -> Labels:
         """Text; a plain picture starts without it."""
         from .labels import Labels
@@ -244,6 +253,8 @@ class Painter:
                 pass
             case IsoLines() | Dots():
                 self.strokes.draw(layer, camera.nearer(LIFT * layer.lift), unit)
+            case Recorded():
+                self.recordings.draw_layer(layer, camera, unit)
             case _:
                 self.strokes.draw(layer, camera, unit)
 

@@ -21,8 +21,8 @@ class Pictures:
         self._anisotropy = max(1.0, min(ANISOTROPY, best))
         self._textures: dict[str, moderngl.Texture] = {}
 
-    def use(self, picture: Picture, unit: int) -> None:
-        """Bind the picture, looked up as it wants to be.
+    def use(self, picture: Picture, unit: int) -> moderngl.Texture:
+        """Bind the picture, looked up as it wants to be, and hand it back.
 
         Raises FileFormatError if it cannot be read, GraphicsError if it is too large.
         """
@@ -38,6 +38,7 @@ class Pictures:
             texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
             texture.anisotropy = self._anisotropy
         texture.use(unit)
+        return texture
 
     def _load(self, source: str) -> moderngl.Texture:
         pixels = read_picture(find_picture(source))

@@ -1,30 +1,35 @@
-"""What the evaluators recorded: evaluated, then drawn or handed back."""
+"""What the evaluators recorded: evaluated, then drawn as often as one likes."""
 
 from __future__ import annotations
 
 import weakref
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import moderngl
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from ..evaluators.constants import GL_POINTS, GL_TRIANGLES
 from ..evaluators.errors import InvalidOperation
-from ..evaluators.grids import Indices, grid_points, pairs, primitive_indices
+from ..evaluators.grids import Indices, chained, primitive_indices
 from ..evaluators.light import Light
-from ..evaluators.maps import FILL, Array, Attribute
-from ..evaluators.recording import HAVE_CURRENT, Batch, Collection, Evaluated, Recording
-from .painter import Painter
+from ..evaluators.maps import Array, Attribute
+from ..evaluators.recording import HAVE_CURRENT, Batch, Collection, Recording
+from ..geometry.camera import Camera
+from ..scenes.layers import Recorded
+from .evaluated import SIZES, read_collection
 from .programs import Program
-from .readback import read_at
+
+if TYPE_CHECKING:
+    from .painter import Painter
 
 Single = NDArray[np.float32]
 Content = tuple[moderngl.Buffer, str, Attribute]
 
 TEXTURE_UNIT = 0
 MODES = {1: moderngl.POINTS, 2: moderngl.LINES, 3: moderngl.TRIANGLES}
-SIZES: dict[Attribute, int] = {"vertex": 4, "normal": 3, "color": 4, "texcoord": 4, "index": 1}
 ATTRIBUTES: dict[str, Attribute] = {  # names in a user's program; `in_` may stand before them
     "position": "vertex", "vert": "vertex",
     "normal": "normal", "norm": "normal",
@@ -52,7 +57,7 @@ class Drawable:
 
 
 class Recordings:
-    """Reads recordings back and draws them, in the context of a painter."""
+    """Draws recordings, in the context of a painter."""
 
     def __init__(self, painter: Painter) -> None:
         self._painter = painter
@@ -62,80 +67,19 @@ class Recordings:
         self._dead: list[list[Drawable]] = []  # of recordings that are no more
         self._indices: dict[object, moderngl.Buffer] = {}
 
-    # Reading back ----------------------------------------------------------------------------
-
-    def read(self, recording: Recording, evaluator: str | None = None) -> list[Evaluated]:
-        """What each glEvalMesh and each glBegin ... glEnd made, in their order.
-
-        `evaluator` is "vertex", the default, or "tessellation". Raises GraphicsError if the
-        context has not that one.
-        """
-        found: list[Evaluated] = []
-        for item in recording.batches:
-            if isinstance(item, Batch):
-                found.extend(self._read_batch(item, evaluator or "vertex"))
-            else:
-                found.append(self._read_collection(item, evaluator or "vertex"))
-        self._painter.evaluation.sweep()
-        return found
-
-    def _read_batch(self, batch: Batch, evaluator: str) -> Iterator[Evaluated]:
-        parameters = grid_points(batch.first.grid)
-        arrays: dict[Attribute, Single] = {
-            attribute: np.broadcast_to(
-                np.array(batch.first.current.value(attribute)[: SIZES[attribute]], np.float32),
-                (len(batch.meshes), len(parameters), SIZES[attribute]),
-            )
-            for attribute in HAVE_CURRENT
-        }
-        for attribute, feed in batch.feeds.items():
-            normals = attribute == "vertex" and batch.first.maps.auto_normal
-            read = read_at(self._painter, evaluator, feed.net, feed.pairs, normals)
-            shape = (len(batch.meshes), *read.points.shape[1:])
-            arrays[attribute] = np.broadcast_to(
-                exact(read.points, feed.components, attribute), shape
-            )[..., : SIZES[attribute]]
-            if normals:
-                arrays["normal"] = np.broadcast_to(read.normals, (*shape[:-1], 3))
-        for i in range(len(batch.meshes)):
-            yield evaluated({a: array[i] for a, array in arrays.items()}, parameters, batch.indices)
-
-    def _read_collection(self, collection: Collection, evaluator: str) -> Evaluated:
-        arrays: dict[Attribute, Single] = {
-            attribute: value[:, : SIZES[attribute]].astype(np.float32)
-            for attribute, value in collection.given.items()
-        }
-        for dimension, maps in collection.maps.items():
-            which = collection.dimensions == dimension
-            for attribute, feed in maps.by_attribute.items():
-                where = pairs(collection.parameters[which], feed.rising)
-                normals = attribute == "vertex" and maps.auto_normal
-                read = read_at(self._painter, evaluator, feed.net, where, normals)
-                points = exact(read.points[0], feed.target.components, attribute)
-                arrays[attribute][which] = points[:, : SIZES[attribute]]
-                if normals:
-                    arrays["normal"][which] = read.normals[0]
-        _, indices = primitive_indices(collection.mode, len(collection.dimensions))
-        return evaluated(arrays, collection.parameters, indices)
-
-    # Drawing ---------------------------------------------------------------------------------
-
-    def draw(self, recording: Recording, program: moderngl.Program) -> None:
+    def draw(
+        self, recording: Recording, program: moderngl.Program, modes: Sequence[int] | None = None
+    ) -> None:
         """Draw into the current framebuffer with a program whose vertex attributes are called
         position, normal, color, texcoord, index (or in_position ...), those that it wants.
 
-        What was evaluated is kept as long as the recording is. Raises InvalidOperation for a
-        program with other attributes.
+        `modes` are the primitives to be drawn, None for all. What was evaluated is kept as long
+        as the recording is. Raises InvalidOperation for a program with other attributes.
         """
         names = attributes_of(program)
-        for dead in self._dead:
-            _release(dead)
-        self._dead.clear()
-        if recording not in self._kept:
-            self._kept[recording] = made = [self._upload(item) for item in recording.batches]
-            weakref.finalize(recording, self._dead.append, made).atexit = False
-            self._painter.evaluation.sweep()
-        for drawable in self._kept[recording]:
+        for drawable in self._drawables(recording):
+            if modes is not None and drawable.mode not in modes:
+                continue
             content = [(*drawable.streams[attribute], name) for name, attribute in names.items()]
             vertices = self._ctx.vertex_array(program, content, drawable.indices)
             vertices.render(drawable.mode, drawable.count)
@@ -148,6 +92,7 @@ class Recordings:
         modelview: Array,
         light: Light | None,
         texture: moderngl.Texture | None,
+        modes: Sequence[int] | None = None,
     ) -> None:
         """The same with recorded.vert and recorded.frag, in the place of fixed function.
 
@@ -163,7 +108,83 @@ class Recordings:
         if texture is not None:
             texture.use(TEXTURE_UNIT)
             program.set(image=TEXTURE_UNIT)
-        self.draw(recording, program.ready())
+        self.draw(recording, program.ready(), modes)
+
+    def draw_layer(self, layer: Recorded, camera: Camera, unit: float) -> None:
+        """A layer of a figure: triangles by the built-in program, lines and points as strokes."""
+        modelview, projection = np.eye(4), camera.clip_from_model()
+        modelview[:3, :3] = camera.rotation  # lights stand in eye coordinates
+        projection[:3, :3] = projection[:3, :3] @ camera.rotation.T
+        texture = None
+        if layer.picture is not None:
+            texture = self._painter.surfaces.pictures.use(layer.picture, TEXTURE_UNIT)
+        matrices = (projection, modelview)
+        modes = (moderngl.TRIANGLES,)
+        self.draw_built_in(layer.recording, *matrices, layer.light, texture, modes)
+        for item in layer.recording.batches:
+            if isinstance(item, Batch):
+                self._stroke_batch(item, layer, camera, unit)
+            else:
+                self._stroke_collection(item, layer, camera, unit)
+
+    def _stroke_batch(self, batch: Batch, layer: Recorded, camera: Camera, unit: float) -> None:
+        if batch.primitive == GL_TRIANGLES:
+            return
+        feed = batch.feeds["vertex"]
+
+        def make() -> tuple[moderngl.Buffer, Array]:
+            order, links = chained(_as_segments(batch.indices))
+            patches = range(len(batch.meshes))
+            points = self._painter.evaluation.run(feed.net, feed.pairs[order], patches)
+            return points, np.tile(links, len(patches))
+
+        key = (feed.net, (batch.first.grid, batch.first.mode))
+        self._stroke(key, make, layer, camera, unit, batch.primitive, batch.first.current.color)
+
+    def _stroke_collection(
+        self, collection: Collection, layer: Recorded, camera: Camera, unit: float
+    ) -> None:
+        primitive, indices = primitive_indices(collection.mode, len(collection.dimensions))
+        if primitive == GL_TRIANGLES:
+            return
+
+        def make() -> tuple[moderngl.Buffer, Array]:
+            order, links = chained(_as_segments(indices))
+            vertices = read_collection(self._painter, collection, "vertex").vertices[order]
+            return self._ctx.buffer(vertices.astype(np.float32).tobytes()), links
+
+        color = collection.given["color"][0]
+        self._stroke((collection.parameters, None), make, layer, camera, unit, primitive, color)
+
+    def _stroke(
+        self,
+        key: tuple[Array, Hashable],
+        make: Callable[[], tuple[moderngl.Buffer, Array]],
+        layer: Recorded,
+        camera: Camera,
+        unit: float,
+        primitive: int,
+        color: ArrayLike,
+    ) -> None:
+        """A point is a line without length. Lines that cross hide nothing of each other."""
+        width = 2.0 * layer.radius if primitive == GL_POINTS else layer.width
+        red, green, blue, _ = np.asarray(color, np.float64).tolist()
+        self._ctx.fbo.depth_mask = False
+        try:
+            self._painter.strokes.draw_lines(key, make, (camera, unit, (red, green, blue), width))
+        finally:
+            self._ctx.fbo.depth_mask = True
+
+    def _drawables(self, recording: Recording) -> list[Drawable]:
+        """What was evaluated for a recording, kept as long as it is."""
+        for dead in self._dead:
+            _release(dead)
+        self._dead.clear()
+        if recording not in self._kept:
+            self._kept[recording] = made = [self._upload(item) for item in recording.batches]
+            weakref.finalize(recording, self._dead.append, made).atexit = False
+            self._painter.evaluation.sweep()
+        return self._kept[recording]
 
     def _upload(self, item: Batch | Collection) -> Drawable:
         return self._evaluate(item) if isinstance(item, Batch) else self._compose(item)
@@ -202,7 +223,7 @@ class Recordings:
 
     def _compose(self, collection: Collection) -> Drawable:
         """Evaluated and plain vertices in one buffer."""
-        found = self._read_collection(collection, "vertex")
+        found = read_collection(self._painter, collection, "vertex")
         columns: dict[Attribute, Single] = {
             "vertex": found.vertices,
             "normal": found.normals,
@@ -224,11 +245,9 @@ class Recordings:
         return Drawable(streams, indices, mode, found.primitives.size, (buffer, indices))
 
 
-def exact(points: Single, components: int, attribute: Attribute) -> Single:
-    """Points (..., 4) with the components that the map lacks exactly as OpenGL has them."""
-    filled = points.copy()
-    filled[..., components:] = FILL[attribute][components:]
-    return filled
+def _as_segments(indices: Indices) -> Indices:
+    """Points as segments without length."""
+    return indices.repeat(2, 1) if indices.shape[1] == 1 else indices
 
 
 def layout(attribute: Attribute, components: int, normals: bool) -> str:
@@ -237,19 +256,6 @@ def layout(attribute: Attribute, components: int, normals: bool) -> str:
     size = min(components, SIZES[attribute])
     skipped = 16 - 4 * size + (12 if normals else 0)
     return f"{size}f {skipped}x" if skipped else f"{size}f"
-
-
-def evaluated(arrays: dict[Attribute, Single], parameters: Array, indices: Indices) -> Evaluated:
-    """All arrays of one mesh together."""
-    return Evaluated(
-        arrays["vertex"],
-        arrays["normal"],
-        arrays["color"],
-        arrays["texcoord"],
-        arrays["index"][:, 0],
-        parameters,
-        indices,
-    )
 
 
 def attributes_of(program: moderngl.Program) -> dict[str, Attribute]:

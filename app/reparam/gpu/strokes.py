@@ -127,6 +127,23 @@ class Strokes:
             case ControlNet():
                 self._draw_control_net(layer, screen)
 
+    def draw_lines(
+        self,
+        key: tuple[Array, Hashable],
+        make: Callable[[], tuple[moderngl.Buffer, Array]],
+        look: tuple[Camera, float, Color, float],
+    ) -> None:
+        """Lines that someone else makes: points (k, 4) in a buffer that passes to us, and their
+        links; kept by an array and a key. `look`: camera, unit, colour, width."""
+        camera, unit, color, width = look
+
+        def lines() -> Lines:
+            points, links = make()
+            buffer = self._ctx.buffer(links.astype(np.float32).tobytes())
+            return Lines(points, buffer, len(links))
+
+        self._stroke(*key, lines, Screen(camera, self._ctx.viewport, unit), color, width)
+
     def draw_handles(
         self, layer: Handles, camera: Camera, unit: float, only: int | None = None
     ) -> None:

@@ -8,13 +8,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.evaluate import evaluate, project, sample_surface
 from ..geometry.formula import Formula
+
+if TYPE_CHECKING:
+    from ..evaluators.light import Light
+    from ..evaluators.recording import Recording
 
 Array = NDArray[np.float64]
 Color = tuple[float, float, float]
@@ -182,6 +186,19 @@ class ControlNet:
 
 
 @dataclass(frozen=True)
+class Recorded:
+    """What calls of OpenGL's evaluators recorded: its triangles in their colours, lit by a light in
+    front of the viewer and with a picture if there is one, its lines and points as wide as asked
+    (in figure units) in the current colour."""
+
+    recording: Recording
+    light: Light | None = None
+    picture: Picture | None = None
+    width: float = 1.6
+    radius: float = 3.0
+
+
+@dataclass(frozen=True)
 class Label:
     """Text at a point of its space, moved by `offset` (in figure units, y up)."""
 
@@ -225,7 +242,7 @@ class Handles:
 
 
 Stroked = IsoLines | Curves | Polylines | Dots | Parametric | Traced
-Layer = Patches | Stroked | ControlNet | Label | Handles
+Layer = Patches | Stroked | ControlNet | Recorded | Label | Handles
 
 
 @dataclass(frozen=True)
@@ -260,13 +277,13 @@ class Figure:
     def plain(self) -> Figure:
         """The subject's patches alone, framed by themselves: no labels, nets, lines or caption.
 
-        A subject without patches keeps its curves, polylines and dots, and its bounds.
+        A subject without patches keeps its curves, lines, dots and recordings, and its bounds.
         """
         subjects = [s for s in self.spaces if not s.name.startswith(("domain", "plot"))]
         subject = (subjects or self.spaces)[-1]
         patches = tuple(layer for layer in subject.layers if isinstance(layer, Patches))
         if not patches:
-            lines = (Curves, Polylines, Dots, Parametric, Traced)
+            lines = (Curves, Polylines, Dots, Parametric, Traced, Recorded)
             kept = tuple(layer for layer in subject.layers if isinstance(layer, lines))
             return Figure((replace(subject, layers=kept),))
         points = np.concatenate([sample_surface(layer.net) for layer in patches])

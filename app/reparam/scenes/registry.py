@@ -70,7 +70,7 @@ def scene(
     """Decorator: the function becomes the scene of its name."""
 
     def register(build: Callable[..., Figure]) -> Scene:
-        return Scene(build.__name__, title, build, figure, animates, opens_files, plates)
+        return Scene(shown(build.__name__), title, build, figure, animates, opens_files, plates)
 
     return register
 
@@ -78,11 +78,16 @@ def scene(
 FILE_SCENE = "surface"
 
 
+def shown(module: str) -> str:
+    """A scene's name from its module's: hyphens stand where Python wants underscores."""
+    return module.replace("_", "-")
+
+
 def scene_names() -> list[str]:
     """All scenes but the one that opens files, without importing any."""
     files = (Path(__file__).parent / "figures").glob("*.py")
     names = {file.stem for file in files} - {"__init__", FILE_SCENE}
-    return sorted(names)
+    return sorted(map(shown, names))
 
 
 def load_scene(name: str) -> Scene:
@@ -104,6 +109,7 @@ def file_scene() -> Scene:
 
 
 def _import(name: str) -> Scene:
-    found = getattr(import_module(f"{__package__}.figures.{name}"), name)
-    assert isinstance(found, Scene), f"scenes/figures/{name}.py defines no scene {name}"
+    module = name.replace("-", "_")
+    found = getattr(import_module(f"{__package__}.figures.{module}"), module)
+    assert isinstance(found, Scene), f"scenes/figures/{module}.py defines no scene {module}"
     return found

@@ -1,0 +1,40 @@
+"""bezmesh of the OpenGL Programming Guide: a lit, filled mesh with automatic normals."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from ...evaluators.constants import GL_AUTO_NORMAL, GL_FILL, GL_MAP2_VERTEX_3
+from ...evaluators.light import Light
+from ...evaluators.recorder import Recorder
+from ..layers import Array, Figure, Recorded
+from ..parameters import Points, Range
+from ..redbook import POINTS_HELP, SURFACE, define_surface, outline, surface_figure
+from ..registry import scene
+
+# Its initlights(): the model's ambient light is OpenGL's own.
+LIGHT = Light(
+    position=(0.0, 0.0, 2.0, 1.0),
+    ambient=(0.2, 0.2, 0.2),
+    material_diffuse=(0.6, 0.6, 0.6),
+    material_specular=(1.0, 1.0, 1.0),
+    shininess=50.0,
+)
+
+
+@scene("The Red Book's bezmesh: glEvalMesh2, lit")
+def redbook_bezmesh(
+    grid: Annotated[int, Range(1, 256), "segments of glMapGrid2 in each direction"] = 20,
+    points: Annotated[Array, Points((4, 4, 3), POINTS_HELP)] = SURFACE,
+) -> Figure:
+    gl = Recorder()
+    define_surface(gl, GL_MAP2_VERTEX_3, points)
+    gl.glEnable(GL_AUTO_NORMAL)
+    gl.glMapGrid2f(grid, 0, 1, grid, 0, 1)
+    gl.glEvalMesh2(GL_FILL, 0, grid, 0, grid)
+    return surface_figure(
+        points,
+        (Recorded(gl.take(), LIGHT), outline(points)),
+        f"glEnable(GL_AUTO_NORMAL);   glMapGrid2f({grid}, 0, 1, {grid}, 0, 1);",
+        f"glEvalMesh2(GL_FILL, 0, {grid}, 0, {grid});",
+    )
