@@ -5,7 +5,12 @@
 in vec4 point;
 #ifdef TEXTURED
 in vec4 map;
+#endif
+#if defined(TEXTURED) || defined(LOCATED)
 uniform int level;
+#endif
+#ifdef LOCATED
+uniform int first_patch;
 #endif
 #ifdef LIT
 in vec3 normal;
@@ -13,9 +18,15 @@ in vec3 normal;
 
 void main() {
     emit_point(point);
+#if defined(TEXTURED) || defined(LOCATED)
+    int count = (level + 1) * (level + 1), step_index = gl_VertexID % count;
+    vec2 uv = vec2(step_index / (level + 1), step_index % (level + 1)) / float(level);
+#endif
 #ifdef TEXTURED
-    int step_index = gl_VertexID % ((level + 1) * (level + 1));
-    emit_map(map, vec2(step_index / (level + 1), step_index % (level + 1)) / float(level));
+    emit_map(map, uv);
+#endif
+#ifdef LOCATED
+    emit_place(first_patch + gl_VertexID / count, uv);
 #endif
 #ifdef LIT
     emit_normal(normal);

@@ -20,6 +20,21 @@ in vec2 parameters;
 #ifdef LIT
 in vec3 view_normal;
 #endif
+#ifdef SHAPED
+#include "lib/evaluate.glsl"
+#include "lib/curvature.glsl"
+#include "lib/shading.glsl"
+flat in int located_patch;
+in vec2 located_uv;
+uniform mat3 view_from_model;
+uniform sampler2D position_net;
+#ifdef GENERIC_DEGREE
+uniform ivec2 position_degree;
+#else
+const ivec2 position_degree = ivec2(POSITION_DEGREE_U, POSITION_DEGREE_V);
+#endif
+uniform float scale;   // of curvature: where the colour is full
+#endif
 
 out vec4 fragment;
 
@@ -58,7 +73,26 @@ void main() {
 #ifdef LIT
     // Two-sided, from over the eye's left shoulder.
     vec3 normal = normalize(view_normal);
+    float ambient = 0.45;
+#ifdef SHAPED
+    vec2 at = clamp(located_uv, 0.0, 1.0);   // a pixel on the rim may lie outside
+    vec3 exact;
+    vec2 curvature = curvatures(position_net, located_patch, position_degree,
+                                vec4(at.x, 1.0 - at.x, at.y, 1.0 - at.y), exact);
+    if (dot(exact, exact) > 0.0)
+        normal = normalize(view_from_model * exact);
+    ambient = 0.75;
+#ifdef ZEBRA
+    fragment.rgb *= mix(0.12, 1.0, zebra(normal.z < 0.0 ? -normal : normal));
+#else
+#ifdef GAUSS
+    fragment.rgb *= diverging(curvature.x / scale);
+#else
+    fragment.rgb *= diverging(curvature.y / scale);
+#endif
+#endif
+#endif
     float facing = abs(dot(normal, normalize(vec3(-0.35, 0.45, 1.0))));
-    fragment.rgb *= 0.45 + 0.55 * facing;
+    fragment.rgb *= ambient + (1.0 - ambient) * facing;
 #endif
 }

@@ -15,7 +15,9 @@ from numpy.typing import NDArray
 from reparam import assets
 from reparam.geometry.camera import View, frame
 from reparam.geometry.evaluate import sample_surface
+from reparam.geometry.meshes import MESHES
 from reparam.geometry.net import Array, control_net
+from reparam.geometry.surface_spline import surface_spline
 from reparam.gpu.painter import Painter
 from reparam.gpu.readback import read_points
 from reparam.scenes.layers import Patches
@@ -23,6 +25,7 @@ from reparam.snapshot import Studio
 
 EVALUATORS = ["vertex", "tessellation"]
 LEVELS = [7, 8, 13]
+LARGE = ("cube", "dodecahedron", "prism9", "three_handles", "torus", "t_mesh")
 SIZE = 192
 COUNTING = """
 uniform vec4 color;
@@ -102,6 +105,35 @@ def test_front_and_back_faces_cancel_at_every_pixel(
         painter.surfaces.draw(body, camera, evaluator, (*LEVELS, 100)[turn % 4])
         assert np.count_nonzero(counts(texture)) == 0, turn
     painter.surfaces.draw(opened, camera, evaluator, 7)
+    assert np.count_nonzero(counts(texture)) > 100
+
+
+@pytest.mark.parametrize("evaluator", EVALUATORS)
+@pytest.mark.parametrize(
+    ("name", "views"),
+    [("cube", 6), ("prism7", 6), *(pytest.param(n, 200, marks=pytest.mark.slow) for n in LARGE)],
+)
+def test_surface_splines_are_closed(
+    counter: tuple[Painter, moderngl.Framebuffer, moderngl.Texture],
+    evaluator: str,
+    name: str,
+    views: int,
+) -> None:
+    painter, framebuffer, texture = counter
+    found = MESHES[name]()
+    ratios = np.random.default_rng(4).uniform(0.1, 0.9, len(found.topology.ends))
+    nets = surface_spline(found.topology, ratios).nets(found.vertices)
+    body, points = Patches(nets), sample_surface(nets)
+    random = np.random.default_rng(5)
+    for turn in range(views):
+        azimuth, elevation, zoom = random.uniform([0.0, -90.0, 1.0], [360.0, 90.0, 4.0])
+        camera = frame(points, SIZE, SIZE, View(zoom, (0.0, 0.0), azimuth, elevation), True)
+        framebuffer.clear()
+        painter.surfaces.draw(body, camera, evaluator, LEVELS[turn % 3])
+        assert np.count_nonzero(counts(texture)) == 0, turn
+    whole = frame(points, SIZE, SIZE, View(), True)
+    framebuffer.clear()
+    painter.surfaces.draw(Patches(nets[: len(nets) // 2]), whole, evaluator, 7)
     assert np.count_nonzero(counts(texture)) > 100
 
 

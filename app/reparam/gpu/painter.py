@@ -34,6 +34,7 @@ from .context import Capabilities, capabilities
 from .evaluation import Evaluation
 from .programs import Programs
 from .region import Region
+from .shapes import Shapes, draw_legend
 from .surfaces import Fine, Surfaces
 from .targets import Target
 
@@ -137,6 +138,7 @@ class Painter:
         self.programs = Programs(ctx)
         self.evaluation = Evaluation(ctx, self.programs)
         self.surfaces = Surfaces(ctx, self.programs, self.evaluation, self.capabilities)
+        self.shapes = Shapes()
 
     @cached_property
     def strokes(self) -> Strokes:
@@ -192,7 +194,7 @@ class Painter:
         self.ctx.blend_func = (moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA)
         unit = min(target.size) / UNITS
         for panel in panels:
-            self._draw_space(panel, target, display, chosen, unit)
+            self._draw_space(panel, target, display, chosen, unit, plain)
         if not plain:
             self._draw_words(figure, panels, target.size, unit)
         self._end_frame()
@@ -214,7 +216,13 @@ class Painter:
         self.ctx.scissor = None
 
     def _draw_space(
-        self, panel: Panel, target: Target, display: Display, evaluator: str, unit: float
+        self,
+        panel: Panel,
+        target: Target,
+        display: Display,
+        evaluator: str,
+        unit: float,
+        plain: bool,
     ) -> None:
         region = panel.region
         box = (region.left, region.bottom, region.width, region.height)
@@ -222,8 +230,9 @@ class Painter:
         self.ctx.scissor = box
         if panel.space.spatial:
             self.ctx.enable(moderngl.DEPTH_TEST)
+        scale = self.shapes.scale(panel.space, display.shading)
         for layer in panel.space.layers:
-            self._draw_layer(layer, panel, display, evaluator, unit)
+            self._draw_layer(layer, panel, display, evaluator, unit, scale)
         self.ctx.disable(moderngl.DEPTH_TEST)
         for layer in panel.space.layers:
             if isinstance(layer, Handles) and display.handles:
@@ -233,9 +242,18 @@ class Painter:
         for layer in panel.space.layers:
             if isinstance(layer, Label):
                 self._draw_label(layer, panel, target.size, unit)
+        if display.shading != "light" and not plain:
+            corner = (region.left, region.bottom + region.height)
+            draw_legend(self.labels, panel.space, display.shading, scale, corner, target.size, unit)
 
     def _draw_layer(
-        self, layer: Layer, panel: Panel, display: Display, evaluator: str, unit: float
+        self,
+        layer: Layer,
+        panel: Panel,
+        display: Display,
+        evaluator: str,
+        unit: float,
+        scale: float,
     ) -> None:
         camera = panel.camera
         match layer:
@@ -243,7 +261,7 @@ class Painter:
                 viewport = (panel.region.width, panel.region.height)
                 off = display.tolerance
                 fine: Fine = Tolerance(off, viewport) if off else display.level
-                self.surfaces.draw(layer, camera, evaluator, fine)
+                self.surfaces.draw(layer, camera, evaluator, fine, display.shading, scale)
                 if display.wireframe:
                     nearer = camera.nearer(1e-3)
                     self.surfaces.draw_wireframe(layer, nearer, evaluator, fine, palette.INK)
@@ -287,6 +305,7 @@ class Painter:
     def _end_frame(self) -> None:
         self.evaluation.sweep()
         self.surfaces.sweep()
+        self.shapes.sweep()
         if "strokes" in self.__dict__:
             self.strokes.sweep()
         error = self.ctx.error

@@ -10,8 +10,10 @@ import moderngl
 
 from ..assets import FILE_LINES, ShaderSource, expand_shader, read_shaders
 from ..errors import GraphicsError
+from ..geometry.curvature import REGULAR
 from ..geometry.net import MAX_ORDER
 from ..geometry.normal import SINGULAR_FACTOR, SINGULAR_SINE, SINGULAR_STEP
+from ..scenes.shading import HIGH_COLOR, LOW_COLOR, ZEBRA_BANDS
 from .nets import NET_WIDTH
 
 STAGES = {
@@ -55,6 +57,10 @@ def stage_source(
         "SINGULAR_SINE": SINGULAR_SINE,
         "SINGULAR_STEP": SINGULAR_STEP,
         "SINGULAR_FACTOR": SINGULAR_FACTOR,
+        "REGULAR": REGULAR,
+        "ZEBRA_BANDS": float(ZEBRA_BANDS),
+        "LOW_COLOR": ", ".join(map(str, LOW_COLOR)),
+        "HIGH_COLOR": ", ".join(map(str, HIGH_COLOR)),
         **defines,
     }
     text = "".join(f"#define {key} {value}\n" for key, value in constants.items())

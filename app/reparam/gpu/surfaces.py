@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import moderngl
@@ -14,10 +14,12 @@ from ..errors import GraphicsError
 from ..geometry.camera import Camera
 from ..geometry.evaluate import grid_parameters
 from ..scenes.layers import Color, Patches
+from ..scenes.shading import Shading
 from .adaptive import HARDWARE_LEVEL, SOFTWARE_CHUNK, Adaptive, Tolerance
 from .context import Capabilities
 from .evaluation import FLOATS, Evaluation, orders, patch_count
 from .kept import Kept
+from .nets import NET_UNIT
 from .pictures import Pictures
 from .programs import Program, Programs, degree_defines
 
@@ -25,6 +27,7 @@ Array = NDArray[np.float64]
 
 BATCH_VERTICES = 1 << 18  # evaluated and drawn at a time
 KEPT_BYTES = 1 << 29  # a layer that needs more is evaluated anew for each frame
+SHAPED = ("zebra", "gauss", "mean")  # told by the patch's own derivatives, fragment by fragment
 
 Fine = int | Tolerance  # steps in u and in v of every patch, or what a drawn point may be off
 
@@ -37,6 +40,16 @@ class Batch:
 
     patches: range
     vertices: moderngl.Buffer
+
+
+@dataclass(frozen=True)
+class Look:
+    """One colour, one shading; `bare` without picture and light."""
+
+    color: Color
+    shading: Shading = "light"
+    scale: float = 1.0
+    bare: bool = False
 
 
 class Surfaces:
@@ -58,9 +71,24 @@ class Surfaces:
         self._batches: Kept[list[Batch]] = Kept(_release)
         self._indices: dict[tuple[int, int], moderngl.Buffer] = {}
 
-    def draw(self, layer: Patches, camera: Camera, evaluator: str, fine: Fine) -> None:
-        """The layer as its picture, colour and light say."""
-        self._draw(layer, camera, evaluator, fine, layer.color, False)
+    def draw(
+        self,
+        layer: Patches,
+        camera: Camera,
+        evaluator: str,
+        fine: Fine,
+        shading: Shading = "light",
+        scale: float = 1.0,
+    ) -> None:
+        """The layer as its picture, colour and light say; if lit, as `shading` says instead.
+
+        `scale` is the curvature that has the full colour.
+        """
+        look = Look(layer.color)
+        if layer.lit and shading != "light":
+            color = layer.kind.color if shading == "kind" else (1.0, 1.0, 1.0)
+            layer, look = replace(layer, texture=None), Look(color, shading, scale)
+        self._draw(layer, camera, evaluator, fine, look)
 
     def draw_wireframe(
         self, layer: Patches, camera: Camera, evaluator: str, fine: Fine, color: Color
@@ -68,26 +96,24 @@ class Surfaces:
         """The edges of the triangles that `draw` draws."""
         self._ctx.wireframe = True
         try:
-            self._draw(layer, camera, evaluator, fine, color, True)
+            self._draw(layer, camera, evaluator, fine, Look(color, bare=True))
         finally:
             self._ctx.wireframe = False
 
-    def _draw(
-        self, layer: Patches, camera: Camera, evaluator: str, fine: Fine, color: Color, bare: bool
-    ) -> None:
+    def _draw(self, layer: Patches, camera: Camera, evaluator: str, fine: Fine, look: Look) -> None:
         if isinstance(fine, Tolerance):
             self.adaptive.draw(
                 layer,
                 evaluator,
                 self.adaptive.plan(layer, camera, fine),
                 "patch.frag",
-                self._defines(layer, bare),
-                lambda program: self.set_common(program, layer, camera, color),
+                self._defines(layer, look),
+                lambda program: self.set_common(program, layer, camera, look),
             )
         elif evaluator == "vertex":
-            self._draw_meshes(layer, camera, fine, color, bare)
+            self._draw_meshes(layer, camera, fine, look)
         else:
-            self._draw_tessellated(layer, camera, fine, color, bare)
+            self._draw_tessellated(layer, camera, fine, look)
 
     def sweep(self) -> None:
         """End of a frame."""
@@ -98,22 +124,28 @@ class Surfaces:
         """Drop what older shaders evaluated."""
         self._batches.clear()
 
-    def _defines(self, layer: Patches, bare: bool) -> dict[str, int]:
-        defines = {}
-        if layer.texture is not None and not bare:
+    def _defines(self, layer: Patches, look: Look) -> dict[str, int]:
+        defines: dict[str, int] = {}
+        if look.shading in SHAPED:
+            defines |= {"SHAPED": 1, "LOCATED": 1, look.shading.upper(): 1}
+            defines |= degree_defines(POSITION_=orders(layer.net))
+        if layer.texture is not None and not look.bare:
             defines["TEXTURED"] = 1
             if layer.texture.picture.wrap == "mirror":
                 defines["MIRRORED"] = 1
-        if layer.lit and not bare:
+        if layer.lit and not look.bare:
             defines["LIT"] = 1
         return defines
 
-    def set_common(self, program: Program, layer: Patches, camera: Camera, color: Color) -> None:
+    def set_common(self, program: Program, layer: Patches, camera: Camera, look: Look) -> None:
         """The uniforms of patch.frag and of what both evaluators hand to it."""
         program.set(
             clip_from_model=camera.clip_from_model().T.astype(np.float32).tobytes(),
-            color=(*color, 1.0),
+            color=(*look.color, 1.0),
         )
+        if "SHAPED" in program.defines:
+            self._evaluation.texture(layer.net).use(NET_UNIT)
+            program.set(position_net=NET_UNIT, position_degree=orders(layer.net), scale=look.scale)
         if "LIT" in program.defines:
             program.set(view_from_model=camera.rotation.T.astype(np.float32).tobytes())
         if "TEXTURED" in program.defines:
@@ -126,11 +158,9 @@ class Surfaces:
 
     # The vertex evaluator -------------------------------------------------------------------
 
-    def _draw_meshes(
-        self, layer: Patches, camera: Camera, level: int, color: Color, bare: bool
-    ) -> None:
-        defines = self._defines(layer, bare)
-        texture_net = layer.texture.net if layer.texture and not bare else None
+    def _draw_meshes(self, layer: Patches, camera: Camera, level: int, look: Look) -> None:
+        defines = self._defines(layer, look)
+        texture_net = layer.texture.net if layer.texture and not look.bare else None
         positions = self._evaluated(layer.net, level, patch_count(layer.net), layer.lit)
         maps = (
             self._evaluated(texture_net, level, patch_count(layer.net), False)
@@ -144,9 +174,11 @@ class Surfaces:
             content = [(batch.vertices, points, *names)]
             if maps is not None:
                 content.append((next(maps).vertices, "4f", "map"))
-            self.set_common(program, layer, camera, color)
-            if "TEXTURED" in defines:
+            self.set_common(program, layer, camera, look)
+            if "TEXTURED" in defines or "SHAPED" in defines:
                 program.set(level=level)
+            if "SHAPED" in defines:
+                program.set(first_patch=batch.patches[0])
             vertices = self._ctx.vertex_array(
                 program.ready(), content, self._triangles(level, len(batch.patches))
             )
@@ -180,10 +212,8 @@ class Surfaces:
 
     # Tessellation ---------------------------------------------------------------------------
 
-    def _draw_tessellated(
-        self, layer: Patches, camera: Camera, level: int, color: Color, bare: bool
-    ) -> None:
-        defines = self._defines(layer, bare)
+    def _draw_tessellated(self, layer: Patches, camera: Camera, level: int, look: Look) -> None:
+        defines = self._defines(layer, look)
         nets = {"POSITION_": orders(layer.net)}
         if "TEXTURED" in defines:
             assert layer.texture is not None
@@ -205,7 +235,7 @@ class Surfaces:
                 texture_degree=orders(layer.texture.net),
                 texture_stride=0 if patch_count(layer.texture.net) == 1 else 1,
             )
-        self.set_common(program, layer, camera, color)
+        self.set_common(program, layer, camera, look)
         self.tessellate(program, patch_count(layer.net), level)
 
     def tessellate(self, program: Program, count: int, level: int) -> None:

@@ -7,6 +7,7 @@ from typing import Annotated
 
 from .cursor import EXPECTED, is_cursor
 from .parameters import Form, Range
+from .shading import Shading
 
 
 @dataclass(frozen=True)
@@ -17,6 +18,9 @@ class Display:
     tolerance: Annotated[
         float, Range(0, 64, 0.5), "pixels that a drawn point may be off; 0: the level decides"
     ] = 0.0
+    shading: Annotated[Shading, "lit surfaces: light, zebra lines, curvature, kinds of patches"] = (
+        "light"
+    )
     wireframe: Annotated[bool, "the triangles' edges over the surface"] = False
     net: Annotated[bool, "the control net"] = False
     handles: Annotated[bool, "the points that a hand can drag in the window"] = False

@@ -60,6 +60,14 @@ class Texture:
 
 
 @dataclass(frozen=True)
+class Kind:
+    """What the display's shading by kind says of patches: a colour, and words for the legend."""
+
+    color: Color = (1.0, 1.0, 1.0)
+    words: str = ""
+
+
+@dataclass(frozen=True)
 class Patches:
     """Tensor-product Bezier patches of one order: a net (m, n, 4) or (patches, m, n, 4)."""
 
@@ -67,7 +75,7 @@ class Patches:
     texture: Texture | None = None
     color: Color = (1.0, 1.0, 1.0)
     lit: bool = False
-    kind: Color = (1.0, 1.0, 1.0)  # what the display's shading by kind shows
+    kind: Kind = Kind()
 
     def __post_init__(self) -> None:
         _freeze(self)

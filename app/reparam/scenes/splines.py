@@ -22,6 +22,7 @@ from .layers import (
     Color,
     Dots,
     Handles,
+    Kind,
     Layer,
     Patches,
     Picture,
@@ -160,8 +161,9 @@ def patch_layers(
     maps = maps_of(spline, vertices) if texture == "layout" else None
     layers: list[Layer] = []
     for size, part, own in parts(spline, nets, maps):
-        color = palette.FACETS.get(size, palette.FACETS[7])
-        layers.append(Patches(part, Texture(own, picture), lit=True, kind=color))
+        words = "regular" if size == 4 else f"around {SIDES.get(size, f'{size}-gons')}"
+        kind = Kind(palette.FACETS.get(size, palette.FACETS[7]), words)
+        layers.append(Patches(part, Texture(own, picture), lit=True, kind=kind))
     return (*layers, Polylines(outlines(spline.index, nets), palette.INK, outline))
 
 

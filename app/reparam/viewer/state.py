@@ -133,6 +133,10 @@ class State:
         """The control net, on or off."""
         self._cycle("net")
 
+    def next_shading(self) -> None:
+        """Light, zebra lines, curvatures, kinds of patches, in turn."""
+        self._cycle("shading")
+
     def toggle_wireframe(self) -> None:
         """The triangles' edges, on or off."""
         self._cycle("wireframe")

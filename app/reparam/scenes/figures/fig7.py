@@ -13,7 +13,7 @@ from ...geometry.patch_joins import joins
 from ...geometry.torus import FREE, A, B, RingNet, torus_distance, two_halves
 from .. import palette
 from ..claims import Claim
-from ..layers import Array, Dots, Figure, Handles, Layer, Patches, Polylines, Space
+from ..layers import Array, Dots, Figure, Handles, Kind, Layer, Patches, Polylines, Space
 from ..legend import legend
 from ..parameters import Points
 from ..registry import scene
@@ -51,9 +51,10 @@ def fig7(
     nets = patches_of(ring)
     region = regions(free)
     layers: list[Layer] = []
-    for kind, (color, _) in REGIONS.items():
+    for kind, (color, words) in REGIONS.items():
         if (region == kind).any():
-            layers.append(Patches(chosen(nets, region, kind), color=color, lit=True, kind=color))
+            part = chosen(nets, region, kind)
+            layers.append(Patches(part, color=color, lit=True, kind=Kind(color, words)))
     layers.append(Polylines(outlines(nets), palette.INK, 0.5))
     points = project(ring.points)
     if control:

@@ -37,7 +37,7 @@ from ..splines import (
     "Three handles, one smooth surface",
     figure=8,
     animates="ratio",
-    plates=(("level=8",),),
+    plates=(("level=8", "shading=kind"), ("level=8", "shading=zebra")),
 )
 def fig8(
     ratio: Ratio = 0.5,

@@ -1,0 +1,20 @@
+// Colours that show shape.  Twin: scenes/shading.py
+
+// Bright and dark bands stand upright around the eye and are mirrored in the surface; their edges
+// are reflection lines, kinked where a tangent plane jumps, broken where a curvature does.
+// `normal` is in the eye's coordinates; the result is 1 in a bright band, 0 in a dark one, and
+// in between in the pixels that hold both.
+float zebra_wave(vec3 normal) {
+    return sin(3.14159265 * ZEBRA_BANDS * 2.0 * normal.z * normal.x);
+}
+
+float zebra(vec3 normal) {
+    float wave = zebra_wave(normal);
+    return clamp(0.5 + wave / max(fwidth(wave), 1e-6), 0.0, 1.0);
+}
+
+// From -1 (blue) over 0 (white) to 1 (vermillion).
+vec3 diverging(float value) {
+    vec3 end = value < 0.0 ? vec3(LOW_COLOR) : vec3(HIGH_COLOR);
+    return mix(vec3(1.0), end, min(abs(value), 1.0));
+}
