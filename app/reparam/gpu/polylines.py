@@ -20,6 +20,7 @@ Values = tuple[float, ...]
 
 COARSEST, FINEST = 8, 1024  # segments of a curve
 FLATNESS = 0.006  # pixels between a curve and its segments
+MANY_CURVES, MOST_FORGIVEN = 256, 32.0  # above so many, so much times that
 MEETING = 1e-9  # of the size of all curves: ends nearer than this are one point
 
 
@@ -92,14 +93,18 @@ def bend(net: Array, axis: int) -> float:
     return float(uneven * degree * (degree - 1) * (second + turn) / least)
 
 
-def segments_needed(bend: float, span: tuple[float, float], pixels: float) -> int:
+def segments_needed(bend: float, span: tuple[float, float], pixels: float, curves: int = 1) -> int:
     """Segments, a power of two, for a curve with that second derivative to look smooth where a
-    model unit is `pixels` pixels: a chord of h is off by at most h^2/8 times the derivative."""
-    error = bend * pixels * (span[1] - span[0]) ** 2 / 8.0
-    needed = max(1.0, sqrt(error / FLATNESS))
+    model unit is `pixels` pixels: a chord of h is off by at most h^2/8 times the derivative.
+
+    Where the layer has very many curves each is small and thin, and may be a little less smooth.
+    """
     if bend == 0.0:
         return 1
-    return int(min(FINEST, max(COARSEST, 2 ** ceil(log2(needed)))))
+    error = bend * pixels * (span[1] - span[0]) ** 2 / 8.0
+    flatness = FLATNESS * min(max(1.0, curves / MANY_CURVES), MOST_FORGIVEN)
+    coarsest = COARSEST if flatness == FLATNESS else 1
+    return int(min(FINEST, max(coarsest, 2 ** ceil(log2(max(1.0, sqrt(error / flatness)))))))
 
 
 @lru_cache(maxsize=256)

@@ -159,7 +159,8 @@ class Strokes:
         """The curves, evaluated on the GPU by the evaluator that draws the patches."""
         bends = [self._bend_of(layer.net, -2)] * bool(layer.u)
         bends += [self._bend_of(layer.net, -3)] * bool(layer.v)
-        segments = segments_needed(max(bends, default=0.0), layer.span, screen.pixels())
+        curves = patch_count(layer.net) * (len(layer.u) + len(layer.v))
+        segments = segments_needed(max(bends, default=0.0), layer.span, screen.pixels(), curves)
 
         def evaluate() -> Lines:
             parameters, links = line_parameters(layer.u, layer.v, layer.span, segments)
@@ -173,8 +174,9 @@ class Strokes:
             self._draw_arrows(tips[:, 1], tips[:, 0], screen, layer.color)
 
     def _draw_curves(self, layer: Curves, screen: Screen) -> None:
-        segments = segments_needed(self._bend_of(layer.net, -2), layer.span, screen.pixels())
         nets = layer.net.reshape(-1, layer.net.shape[-2], 1, 4)
+        bend = self._bend_of(layer.net, -2)
+        segments = segments_needed(bend, layer.span, screen.pixels(), len(nets))
 
         def evaluate() -> Lines:
             links = (

@@ -11,13 +11,15 @@ from ...geometry.body import Body, with_points
 from ...geometry.evaluate import sample_surface
 from .. import palette
 from ..attachments import Checks, Filter, Image, Wrap, attachment
-from ..layers import Array, ControlNet, Figure, Handles, IsoLines, Patches, Space, Texture
+from ..layers import Array, ControlNet, Figure, Handles, IsoLines, Layer, Patches, Space, Texture
 from ..parameters import Points
 from ..registry import scene
 from ..remember import remember
 
 NONE = np.zeros((0, 6))
 Moved = Annotated[Array, Points((None, 6), "control points moved: patch, row, column, x, y, z")]
+
+MOST_OUTLINED = 4096
 
 
 @scene("a surface from a file", opens_files=True)
@@ -36,10 +38,9 @@ def surface(
     points = sampled(nets)
     spatial = bool(np.any(nets[..., 2] != 0.0))
     texture_net = nets if texture == "r" else identity(body)
-    outline = min(1.2, 30.0 / len(nets) ** 0.5)  # many patches would be outlines alone
-    layers = (
+    layers: tuple[Layer, ...] = (
         Patches(nets, Texture(texture_net, attachment(checks, image, wrap, filter)), lit=spatial),
-        IsoLines(nets, u=(0.0, 1.0), v=(0.0, 1.0), color=palette.INK, width=outline),
+        *outlines(nets),
         ControlNet(nets, palette.CONTROL_NET),
         handles(nets),
     )
@@ -48,6 +49,14 @@ def surface(
         "r": "attached by the surface itself, (s, t) = (x, y)",
     }
     return Figure((Space("physical", points, layers, spatial),), (caption[texture],))
+
+
+def outlines(nets: Array) -> tuple[IsoLines, ...]:
+    """The patches' edges, thinner the more there are; very many would be a grey haze alone."""
+    if len(nets) > MOST_OUTLINED:
+        return ()
+    width = min(1.2, 30.0 / len(nets) ** 0.5)
+    return (IsoLines(nets, u=(0.0, 1.0), v=(0.0, 1.0), color=palette.INK, width=width),)
 
 
 @remember
