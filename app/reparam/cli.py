@@ -116,6 +116,20 @@ def parser() -> argparse.ArgumentParser:
     _add_assignments(joining)
     joining.set_defaults(run=run_joins, views=[])
 
+    trace = commands.add_parser(
+        "trace",
+        help="equally spaced points of a curve, with tangents",
+        description="Points at equal arc length along a curve, as CSV: s, u, x, y, z and the unit "
+        "tangent. FILE has a control point a line, x, y[, z[, weight]]; a line `degree 3` makes "
+        "them a B-spline's, and one of `knots ...` gives its knots.",
+    )
+    trace.add_argument("file", metavar="FILE", type=Path)
+    spacing = trace.add_mutually_exclusive_group(required=True)
+    spacing.add_argument("--step", type=float, metavar="S", help="the length between two points")
+    spacing.add_argument("--count", type=int, metavar="N", help="so many, both ends among them")
+    trace.add_argument("-o", "--output", type=Path, metavar="OUT.csv", help="else it is printed")
+    trace.set_defaults(run=run_trace)
+
     doctor = commands.add_parser("doctor", help="what OpenGL is here, and what mends it")
     doctor.add_argument("--json", action="store_true")
     doctor.set_defaults(run=run_doctor)
@@ -318,6 +332,26 @@ def run_joins(options: argparse.Namespace) -> int:
         print(json.dumps(found))
     else:
         print(*table(options.subject, found, options.all), sep="\n")
+    return 0
+
+
+def run_trace(options: argparse.Namespace) -> int:
+    """Equally spaced points of a curve."""
+    from .files.curve import read_curve
+    from .files.output import check_output, write_text
+    from .trace_report import lengths, rows, table
+
+    output = check_output(options.output, (".csv", ".txt")) if options.output else None
+    path = read_curve(options.file)
+    s = lengths(path, options.step, options.count)
+    text = table(rows(path, s))
+    if output is None:
+        sys.stdout.write(text)
+    else:
+        write_text(text, output)
+    rest = path.arc.length - float(s[-1])
+    left = f", {rest:.6g} left over at the end" if rest > 1e-9 * path.arc.length else ""
+    print(f"length {path.arc.length:.12g}, {len(s)} points{left}", file=sys.stderr)
     return 0
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
@@ -13,10 +14,11 @@ from PIL import Image
 from ..errors import ReparamError, UsageError
 
 
-def check_output(path: Path) -> Path:
-    """The path itself if a picture can be written there: asked before the work is done."""
-    if path.suffix.lower() != ".png":
-        raise UsageError(f"--output: expected a name ending in .png, found {str(path)!r}")
+def check_output(path: Path, endings: tuple[str, ...] = (".png",)) -> Path:
+    """The path itself if a file can be written there: asked before the work is done."""
+    if path.suffix.lower() not in endings:
+        wanted = " or ".join(endings)
+        raise UsageError(f"--output: expected a name ending in {wanted}, found {str(path)!r}")
     if not path.parent.is_dir():
         raise ReparamError(f"{path}: expected an existing folder, found no {path.parent}")
     if os.path.isdir(path) or not os.access(path if os.path.exists(path) else path.parent, os.W_OK):
@@ -25,10 +27,20 @@ def check_output(path: Path) -> Path:
 
 
 def save_picture(picture: NDArray[np.uint8], path: Path) -> None:
-    """Write (height, width, 3) as PNG; what stood there stays until the new one is whole."""
+    """Write (height, width, 3) as PNG."""
+    write_whole(path, lambda part: Image.fromarray(picture).save(part, "PNG"))
+
+
+def write_text(text: str, path: Path) -> None:
+    """Write text, its lines ended as they are."""
+    write_whole(path, lambda part: part.write_bytes(text.encode("utf-8")))
+
+
+def write_whole(path: Path, write: Callable[[Path], object]) -> None:
+    """Have `write` write a file; what stood there stays until the new one is whole."""
     part = path.with_name(f".{path.name}.part")
     try:
-        Image.fromarray(picture).save(part, "PNG")
+        write(part)
         os.replace(part, path)
     except OSError as error:
         with suppress(OSError):
