@@ -25,6 +25,7 @@ from reparam.geometry.nurbs import (
     extraction,
     find_span,
     insert_knot,
+    restricted,
     surface_to_bezier,
 )
 
@@ -227,6 +228,19 @@ def test_cuts_are_cuts() -> None:
         middle = evaluate_curve(knots, points, order, (a + b) / 2)
         np.testing.assert_allclose(bernstein(3, 0.5) @ net, middle, atol=1e-15)
     assert (pieces.nets[1:, 0] == pieces.nets[:-1, -1]).all()
+
+
+def test_restricted_to_rectangles() -> None:
+    net = np.random.default_rng(3).normal(size=(4, 3, 2))
+    low, high = np.array([[0.0, 0.25], [0.5, 0.5]]), np.array([[1.0, 0.75], [0.625, 1.0]])
+    local = np.linspace(0.0, 1.0, 5)
+    for part, (u0, v0), (u1, v1) in zip(restricted(net, low, high), low, high, strict=True):
+        rows, columns = (bernstein(d, t) for d, t in (
+            (3, u0 + (u1 - u0) * local), (2, v0 + (v1 - v0) * local)))  # fmt: skip
+        found = np.einsum("ki,lj,ijc->klc", bernstein(3, local), bernstein(2, local), part)
+        expected = np.einsum("ki,lj,ijc->klc", rows, columns, net)
+        np.testing.assert_allclose(found, expected, atol=1e-15)
+    assert (restricted(net, [[0.0, 0.0]], [[1.0, 1.0]])[0] == net).all()
 
 
 def test_clamped_knots() -> None:

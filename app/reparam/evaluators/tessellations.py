@@ -15,7 +15,16 @@ from numpy.typing import NDArray
 from ..geometry.evaluate import evaluate
 from ..geometry.net import Array
 from ..geometry.normal import surface_normal
-from .constants import GL_FILL, GL_LINE, GL_LINE_STRIP, GL_POINTS, GL_QUAD_STRIP
+from .borders import inner, plan
+from .constants import (
+    GL_FILL,
+    GL_LINE,
+    GL_LINE_STRIP,
+    GL_LINES,
+    GL_POINTS,
+    GL_QUAD_STRIP,
+    GL_TRIANGLES,
+)
 from .glu_constants import (
     GLU_NURBS_TESSELLATOR,
     GLU_OUTLINE_PATCH,
@@ -26,7 +35,7 @@ from .maps import FILL, Map
 from .recording import HAVE_CURRENT, Collection, Current, Evaluated, Maps, Mesh, Recording
 from .sampling import steps
 from .splines import Nurbs
-from .trimmed import trimmed_pieces
+from .trimmed import edges_of, trimmed_pieces
 
 Single = NDArray[np.float32]
 Read = Callable[[Recording], list[Evaluated]]
@@ -96,24 +105,37 @@ def _strokes(nurbs: Nurbs) -> Iterator[Part]:
 
 
 def _fillings(nurbs: Nurbs) -> Iterator[Part]:
-    nu, nv = steps(nurbs)
+    """The grid of each piece, and where it has a border of its own, a ring around it."""
+    laid = plan(nurbs)
     lines = nurbs.properties.display_mode == GLU_OUTLINE_POLYGON
-    mode = GL_LINE if lines and nurbs.properties.mode != GLU_NURBS_TESSELLATOR else GL_FILL
+    lines = lines and nurbs.properties.mode != GLU_NURBS_TESSELLATOR
     for (s, t), maps, low, size in _pieces(nurbs):
-        yield Part(Mesh(maps, Grid(_walk(nu[s]), _walk(nv[t])), mode, Current()), low, size)
+        nu, nv = int(laid.nu[s]), int(laid.nv[t])
+        i0, i1, j0, j1 = inner(laid.borders.get((s, t), {}), nu, nv)
+        if i1 > i0 and j1 > j0:
+            grid = Grid(Walk(Axis(nu, 0.0, 1.0), i0, i1), Walk(Axis(nv, 0.0, 1.0), j0, j1))
+            yield Part(Mesh(maps, grid, GL_LINE if lines else GL_FILL, Current()), low, size)
+        ring = laid.ring(s, t)
+        if len(ring):
+            corners = edges_of(ring) if lines else ring.reshape(-1, 2)
+            yield Part(collection(GL_LINES if lines else GL_TRIANGLES, maps, corners), low, size)
 
 
 def _outlines(nurbs: Nurbs) -> Iterator[Part]:
     """The four borders of each piece; a border that two pieces share is drawn once."""
-    nu, nv = steps(nurbs)
+    laid = plan(nurbs)
     for (s, t), maps, low, size in _pieces(nurbs):
-        along_u, along_v = _walk(nu[s]), _walk(nv[t])
-        for end in (0, 1) if t == 0 else (1,):
-            grid = Grid(along_u, Walk(Axis(1, 0.0, 1.0), end, end))
-            yield Part(Mesh(maps, grid, GL_LINE, Current()), low, size)
-        for end in (0, 1) if s == 0 else (1,):
-            grid = Grid(Walk(Axis(1, 0.0, 1.0), end, end), along_v)
-            yield Part(Mesh(maps, grid, GL_LINE, Current()), low, size)
+        sides = laid.borders.get((s, t), {})
+        for side, count, end in (
+            ("bottom", laid.nu[s], 0.0), ("top", laid.nu[s], 1.0),
+            ("left", laid.nv[t], 0.0), ("right", laid.nv[t], 1.0),
+        ):  # fmt: skip
+            if (side == "bottom" and t > 0) or (side == "left" and s > 0):
+                continue
+            along = sides.get(side, np.arange(count + 1) / count)
+            across = np.full(len(along), end)
+            points = [along, across] if side in ("bottom", "top") else [across, along]
+            yield Part(collection(GL_LINE_STRIP, maps, np.stack(points, -1)), low, size)
 
 
 def _trimmed(nurbs: Nurbs) -> Iterator[Part]:

@@ -70,6 +70,12 @@ def _flat(found: Mapping[Place, Sequence[tuple[Point, ...]]]) -> dict[Place, Arr
     return {place: np.array(parts).reshape(-1, 2) for place, parts in found.items() if parts}
 
 
+def edges_of(triangles: Array) -> Array:
+    """The edges of triangles (t, 3, 2), each once: two points each, (k, 2)."""
+    corners = [((a, b), (c, d), (e, f)) for (a, b), (c, d), (e, f) in triangles.tolist()]
+    return np.array(_edges(corners)).reshape(-1, 2)
+
+
 def _edges(triangles: list[tuple[Point, Point, Point]]) -> list[Line]:
     """The edges of triangles, each once."""
     around = [edge for a, b, c in triangles for edge in ((a, b), (b, c), (c, a))]

@@ -304,3 +304,15 @@ def surface_to_bezier(
     nets = in_v.apply(np.moveaxis(rows, 2, 0))  # (t, n', s, m', c)
     nets = nets.transpose(2, 0, 3, 1, 4)
     return BezierSurfaces(np.ascontiguousarray(nets), in_u.intervals, in_v.intervals)
+
+
+def restricted(net: Array, low: ArrayLike, high: ArrayLike) -> Array:
+    """A Bezier patch (m, n, c) over rectangles from low to high (r, 2): nets (r, m, n, c)."""
+    rectangles = np.stack([np.asarray(low, np.float64), np.asarray(high, np.float64)], -1)
+    matrices = []
+    for axis in (0, 1):
+        order = net.shape[axis]
+        knots = np.repeat([0.0, 1.0], order)
+        span = np.full(len(rectangles), order - 1)
+        matrices.append(_matrices(knots, order, span, rectangles[:, axis]))
+    return np.asarray(np.einsum("rij,rkl,jlc->rikc", *matrices, net, optimize=True))
