@@ -1,5 +1,6 @@
 // How many segments, back and ahead, a segment may share pixels with: one where the line runs on
-// smoothly, many around a cusp.  Once for each view, so that stroke.frag need not look further.
+// smoothly, many around a cusp, of a closed line all at most.  Once for each view, so that
+// stroke.frag need not look further.
 
 #include "lib/polyline.glsl"
 
@@ -26,7 +27,7 @@ void main() {
 
     vec4 here = start;
     int segment = link > 0.5 ? segment_before(own - 1, here) : -1;
-    for (int step = 1; step <= WINDOW && segment >= 0; ++step) {
+    for (int step = 1; step <= WINDOW && segment >= 0 && segment != own; ++step) {
         vec4 from = line_point(segment - 1);
         if (is_near(middle, length_here, from.xy, line_point(segment).xy))
             reach.x = float(step);
@@ -34,7 +35,7 @@ void main() {
     }
     here = end;
     segment = link > 0.5 ? segment_after(own, here) : -1;
-    for (int step = 1; step <= WINDOW && segment >= 0; ++step) {
+    for (int step = 1; step <= WINDOW && segment >= 0 && segment != own; ++step) {
         vec4 to = line_point(segment);
         if (is_near(middle, length_here, line_point(segment - 1).xy, to.xy))
             reach.y = float(step);
