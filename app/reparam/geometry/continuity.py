@@ -45,6 +45,13 @@ class Joint:
     exponents: tuple[int, int] = (1, 1)
 
     @property
+    def parametric(self) -> int:
+        """The largest k such that the derivatives themselves agree: C^k, with r' = 1, r'' = 0 .."""
+        wanted = (1, *[0] * len(self.derivatives))
+        agree = [abs(x - y) < 1e-9 for x, y in zip(self.derivatives, wanted, strict=False)]
+        return min(self.order, [*agree, False].index(False))
+
+    @property
     def regular(self) -> bool:
         """Whether neither first derivative vanishes."""
         return self.exponents == (1, 1)
@@ -61,16 +68,24 @@ class Joint:
         return f"{found}; {self.reason}" if self.reason else found
 
 
-def join_curves(f: Values, g: Values, order: int = 5, tolerance: float = TOLERANCE) -> Joint:
-    """The joint of two rational Bezier curves, f at its parameter 1 with g at its parameter 0.
+def join_curves(
+    f: Values,
+    g: Values,
+    order: int = 5,
+    tolerance: float = TOLERANCE,
+    widths: tuple[Number, Number] = (1, 1),
+) -> Joint:
+    """The joint of two rational Bezier curves, f at its end with g at its start.
 
-    Nets (m, d + 1) and (n, d + 1), premultiplied, the last coordinate the weight.
+    Nets (m, d + 1) and (n, d + 1), premultiplied, the last coordinate the weight; `widths` are
+    the lengths of their parameter intervals.
     """
-    before, after = rational_jet(f, 1, order), rational_jet(g, 0, order)
+    before, after = rational_jet(f, 1, order, widths[0]), rational_jet(g, 0, order, widths[1])
     exponents = leading(before, tolerance), leading(after, tolerance)
     enough = order * max(*exponents, 1)
     if enough > order:
-        before, after = rational_jet(f, 1, enough), rational_jet(g, 0, enough)
+        before = rational_jet(f, 1, enough, widths[0])
+        after = rational_jet(g, 0, enough, widths[1])
     return join(before, after, order, tolerance)
 
 
