@@ -102,8 +102,14 @@ def parser() -> argparse.ArgumentParser:
     bench.add_argument("--json", action="store_true")
     bench.set_defaults(run=run_bench)
 
-    joining = commands.add_parser("joins", help="how patches meet: gaps, normal jumps, order G^k")
+    joining = commands.add_parser(
+        "joins",
+        help="how patches or curves meet: gaps, jumps, order G^k",
+        description="Patches of a scene or a .bv file; the pieces of a curve, or a curve and the "
+        "one that goes on where it ends, from .csv or .txt files as `reparam trace` reads them.",
+    )
     joining.add_argument("subject", metavar="SCENE|FILE")
+    joining.add_argument("following", metavar="CURVE", nargs="?", type=Path)
     joining.add_argument("--all", action="store_true", help="every join, not the worst alone")
     joining.add_argument("--json", action="store_true", help="with r's derivatives along each edge")
     joining.add_argument(
@@ -318,13 +324,16 @@ def run_bench(options: argparse.Namespace) -> int:
 
 
 def run_joins(options: argparse.Namespace) -> int:
-    """How patches meet, as a table or as JSON."""
+    """How patches or curves meet, as a table or as JSON."""
+    from .files.curve import is_curve
     from .join_report import patches_of, report, table
 
     if not 0.0 < options.tolerance < 1.0:
         raise UsageError(
             f"--tolerance: expected a number between 0 and 1, found {options.tolerance:g}"
         )
+    if options.following or is_curve(Path(options.subject)):
+        return _run_curve_joins(options)
     found = report(patches_of(_subject(options).figure()), options.tolerance)
     if options.json:
         import json
@@ -332,6 +341,25 @@ def run_joins(options: argparse.Namespace) -> int:
         print(json.dumps(found))
     else:
         print(*table(options.subject, found, options.all), sep="\n")
+    return 0
+
+
+def _run_curve_joins(options: argparse.Namespace) -> int:
+    from .curve_report import between, table, within
+    from .files.curve import read_curve
+
+    name, path = options.subject, read_curve(Path(options.subject))
+    if options.following:
+        name = f"{name}, {options.following}"
+        rows = between(path, read_curve(options.following), options.tolerance)
+    else:
+        rows = within(path, options.tolerance)
+    if options.json:
+        import json
+
+        print(json.dumps(rows))
+    else:
+        print(*table(name, rows), sep="\n")
     return 0
 
 

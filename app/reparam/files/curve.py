@@ -27,10 +27,16 @@ from ..geometry.net import MAX_ORDER
 from ..geometry.paths import Path as CurvePath
 from ..geometry.paths import bezier_path, spline_path
 
+ENDINGS = (".csv", ".txt")
 MAX_BYTES = 1 << 24
 MAX_POINTS = 100_000
 COLUMNS = {2: ("x", "y"), 3: ("x", "y", "z"), 4: ("x", "y", "z", "weight")}
 SAME = {"w": "weight"}
+
+
+def is_curve(path: Path) -> bool:
+    """Whether a file's name says that it holds a curve."""
+    return path.suffix.lower() in ENDINGS
 
 
 def read_curve(path: Path) -> CurvePath:
