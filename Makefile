@@ -72,7 +72,8 @@ $(BIN)/python:
 	@echo "$(CURDIR) $(PYTHON)" >$(VENV)/of
 
 $(VENV)/run: $(BIN)/python pyproject.toml
-	@$(BIN)/python -m pip install --quiet --editable .
+	@$(BIN)/python -m pip install --quiet --only-binary imgui-bundle --editable '.[panel]' || \
+		$(BIN)/python -m pip install --quiet --editable . # where the panel has no wheel
 	@touch $@
 
 $(VENV)/test: $(BIN)/python pyproject.toml

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
 from .compare import agree, blends_by_value, sides
 from .gpu.comparison import Split
 from .gpu.painter import UNITS, Painter, Panel
 from .gpu.targets import Target
-from .subject import Subject
+from .subject import Subject, open_subject
 
 
 def draw_subject(
@@ -31,6 +37,40 @@ def draw_subject(
         views=subject.views,
         plain=plain,
     )
+
+
+class Apart:
+    """Draws subjects into targets of their own; `picture` makes it a claim's Measure.
+
+    `rest` is the framebuffer that is bound afterwards.
+    """
+
+    def __init__(
+        self, painter: Painter, rest: moderngl.Framebuffer, evaluator: str | None = None
+    ) -> None:
+        self.painter = painter
+        self.evaluator = evaluator
+        self._rest = rest
+
+    def draw(
+        self, subject: Subject, size: tuple[int, int], *, plain: bool = False
+    ) -> NDArray[np.uint8]:
+        """The subject as (height, width, 3), top row first."""
+        painter = self.painter
+        target = Target(painter.ctx, size, subject.display.samples, painter.capabilities)
+        try:
+            draw_subject(painter, subject, target, evaluator=self.evaluator, plain=plain)
+            return target.pixels()
+        finally:
+            self._rest.use()
+            target.release()
+
+    def picture(self, scene: str, size: tuple[int, int], **values: Any) -> NDArray[np.uint8]:
+        """A scene drawn plain; `values` are its parameters and the display's."""
+        subject = open_subject(scene)
+        for name, value in values.items():
+            subject = subject.changed(name, value)
+        return self.draw(subject, size, plain=True)
 
 
 def _draw_compared(

@@ -62,6 +62,7 @@ VARIANTS: list[tuple[tuple[str, ...], dict[str, Any]]] = [
     (("marker.vert", "marker.frag"), {}),
     (("label.vert", "label.frag"), {}),
     (("label.vert", "compare.frag"), {}),
+    (("widgets.vert", "widgets.frag"), {}),
 ]
 MARKED: tuple[tuple[str, ...], dict[str, Any]] = (("marker.vert", "marker.frag"), {})
 

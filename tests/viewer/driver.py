@@ -76,6 +76,7 @@ class Window:
 
     def __init__(self, screen: Screen, folder: Path, *words: str) -> None:
         self.folder = folder
+        self._at = ("", "")  # of the mouse
         self.environment = {**os.environ, "DISPLAY": screen.name, "PYTHONUNBUFFERED": "1"}
         command = [sys.executable, "-m", "reparam", "view", "--size", "320x240", *words]
         app = Path(__file__).parents[2] / "app"
@@ -132,7 +133,17 @@ class Window:
     def point(self, to: tuple[float, float]) -> None:
         """The mouse to a place in the window, in pixels, y down."""
         x, y = (str(round(c)) for c in to)
-        self.xdotool("mousemove", "--window", self.id, "--sync", x, y)
+        if (x, y) != self._at:  # xdotool would wait long for what does not move
+            self.xdotool("mousemove", "--window", self.id, "--sync", x, y)
+            self._at = (x, y)
+
+    def click(self, at: tuple[float, float], notice: str) -> None:
+        """The left button on a place; wait for a notice, if one is to come."""
+        times = self.log.read_text().count(notice) + 1
+        self.point(at)
+        self.xdotool("click", "1")
+        if notice:
+            self.wait_for(notice, times)
 
     def screenshot(self) -> np.ndarray:
         self.press("s", "saved ")

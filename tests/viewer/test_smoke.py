@@ -13,12 +13,14 @@ import numpy as np
 import pytest
 from driver import SECONDS, SIZE, Window, virtual_screen
 from PIL import Image
+from test_panel import Sheet
 
 from reparam.geometry.evaluate import evaluate, project
 from reparam.geometry.inverse import invert
 from reparam.gpu.painter import arrange
 from reparam.snapshot import Studio
 from reparam.subject import open_subject
+from reparam.viewer.panel_style import WIDTH
 
 
 @pytest.fixture(scope="module")
@@ -157,6 +159,49 @@ def test_the_mouse_marks_one_point_in_three_spaces(
         window.press("d", "its domain is there already")
         window.press("5", "fig5: ")
         window.press("d", "linked = on")
+        assert window.close() == 0
+    finally:
+        window.process.kill()
+
+
+def test_the_panel_and_a_key_change_the_same_parameter(
+    display: str, tmp_path: Path, studio: Studio, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    size = (780, 580)
+    window = Window(display, tmp_path, "--size", f"{size[0]}x{size[1]}")
+    places = Sheet(monkeypatch, "fig5", size=size).places  # laid out here as it is there
+    beside = (size[0] - int(WIDTH), size[1])
+    subject = open_subject("fig5")
+    try:
+        window.point((100, 100))
+        window.xdotool_key("Tab")
+        assert np.array_equal(window.screenshot(), studio.draw(subject, beside))
+        window.click(places["##net"], "net = on")
+        on = subject.changed("net", True)
+        assert np.array_equal(window.screenshot(), studio.draw(on, beside))
+        window.press("n", "net = off")
+        window.click(places["##net"], "net = on")
+        window.click(places["r##texture"], "texture = r")
+        window.press("t", "texture = identity")
+        window.press("ctrl+z", "undone: texture = r")
+        window.click(places["##image"], "")
+        window.xdotool("type", "--delay", "30", "nt4")  # into the field: no key of the window
+        window.xdotool_key("Escape")
+        window.xdotool_key("Tab")
+        final = on.changed("texture", "r")
+        assert np.array_equal(window.screenshot(), studio.draw(final, size))
+        assert window.close() == 0
+    finally:
+        window.process.kill()
+
+
+def test_without_its_package_the_panel_says_how_to_get_it(display: str, tmp_path: Path) -> None:
+    missing = "raise ModuleNotFoundError('no imgui_bundle here', name='imgui_bundle')"
+    (tmp_path / "imgui_bundle.py").write_text(missing)  # the window's folder comes first
+    window = Window(display, tmp_path)
+    try:
+        window.press("Tab", "pip install imgui-bundle")
+        window.press("t", "texture = r")
         assert window.close() == 0
     finally:
         window.process.kill()

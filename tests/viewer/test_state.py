@@ -16,6 +16,7 @@ from reparam.subject import open_subject
 from reparam.viewer.keeping import Keeping
 from reparam.viewer.keyboard import bind
 from reparam.viewer.keys import KEYS
+from reparam.viewer.side import Side
 from reparam.viewer.state import ANIMATION_SECONDS, CHECKS, GLIDE_SECONDS, LEVELS, State
 from reparam.viewer.window import Viewer, hint
 
@@ -46,7 +47,7 @@ def presses(state: State, press: Callable[[], None], name: str, times: int) -> l
 
 def test_every_action_of_the_table_is_there() -> None:
     state = opened()
-    bound = bind((Viewer, Keeping, state))
+    bound = bind((Viewer, Keeping, Side, state))
     assert {name.upper() for key in KEYS for name in key.names} <= bound.keys()
     assert all(callable(method) for method, _ in bound.values())
 

@@ -20,6 +20,7 @@ from reparam.scenes.registry import scene_names
 from reparam.snapshot import Studio
 from reparam.subject import Subject, open_subject
 from reparam.viewer.keys import KEYS
+from reparam.viewer.panel import WIDEST
 
 HERE = Path(__file__).parent
 COMPLAINTS = ("Traceback", "OpenGL:", "Error", "expected no error")
@@ -217,6 +218,10 @@ def check_what_only_the_window_shows(window: Window, screen: Screen) -> set[str]
     window.press("ctrl+c", "copied: ")
     window.press("F5", "shaders reloaded")
     assert np.array_equal(window.screenshot(), picture)
+    window.xdotool_key("Tab")
+    beside = SIZE[0] - round(WIDEST * SIZE[0])
+    assert window.screenshot().shape == (SIZE[1], beside, 3)
+    window.xdotool_key("Tab")
     window.xdotool_key("F11")
     time.sleep(1.0)
     assert window.screenshot().shape == (600, 800, 3)
@@ -225,7 +230,7 @@ def check_what_only_the_window_shows(window: Window, screen: Screen) -> set[str]
     assert np.array_equal(window.screenshot(), picture)
     assert before.shape == (600, 800, 3)
     return {"toggle_help", "type_value", "ask_screenshot", "screenshot", "save_scene",
-            "copy_command", "reload_shaders", "toggle_full_screen"}  # fmt: skip
+            "copy_command", "reload_shaders", "toggle_full_screen", "toggle_panel"}  # fmt: skip
 
 
 @pytest.mark.slow

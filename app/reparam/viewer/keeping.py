@@ -70,7 +70,7 @@ class Keeping:
                 raise UsageError(f"expected a whole number from 1, found {text!r}")
             self.screenshot(int(text))
 
-        width, height = glfw.get_framebuffer_size(self._window)
+        width, height = self._size()
         self._state.ask(f"screenshot, how many times {width} x {height}?", accept, "2")
 
     def save_scene(self) -> None:
@@ -81,7 +81,7 @@ class Keeping:
 
     def copy_command(self) -> None:
         """The command line that draws this picture without a window, into the clipboard."""
-        size = glfw.get_framebuffer_size(self._window)
+        size = self._size()
         usual = self._painter.capabilities.evaluator(None)
         evaluator = self._state.evaluator if self._state.evaluator != usual else None
         text = command(self._state.snapshot(), size, evaluator, f"{self._stem()}.png")
@@ -119,6 +119,11 @@ class Keeping:
             return False
         self.loading.give_up()
         return True
+
+    def _size(self) -> tuple[int, int]:
+        """Of the picture, in pixels."""
+        drawn = self._draw()
+        return drawn.size if drawn else glfw.get_framebuffer_size(self._window)
 
     def _stem(self) -> str:
         subject = self._state.subject

@@ -88,6 +88,7 @@ GROUPS: tuple[tuple[str, tuple[Key | Gesture, ...]], ...] = (
     (
         "the window",
         (
+            Key(("Tab",), "the panel: parameters, claims, scenes", "toggle_panel"),
             Key(("H", "F1"), "this help", "toggle_help"),
             Key(("F11",), "full screen", "toggle_full_screen"),
             Key(("F5",), "reload the shaders", "reload_shaders"),

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..compare import comparison_text, default_comparison
 from ..errors import ReparamError
+from ..files.picture import find_picture, read_picture
 from ..geometry.camera import View
 from ..scenes.cursor import Cursor, is_linked
 from ..scenes.linked import can_link
@@ -187,15 +188,19 @@ class State:
         """The note's figure of that number."""
         for name in scene_names():
             if name == f"fig{number}":
-                self._visit(name)
+                self.visit(name)
                 return
         self.say(f"there is no figure {number} here")
 
     def turn_page(self, direction: int) -> None:
         """The next or previous scene; a file that was opened is one of them."""
-        names = [*scene_names(), *([self._opened.scene.name] if self._opened else [])]
+        names = self.pages()
         index = names.index(self.subject.scene.name)
-        self._visit(names[(index + direction) % len(names)])
+        self.visit(names[(index + direction) % len(names)])
+
+    def pages(self) -> list[str]:
+        """The names of all scenes, and of the one that shows the opened file."""
+        return [*scene_names(), *([self._opened.scene.name] if self._opened else [])]
 
     def reset(self) -> None:
         """The view as it was at first; if it is so already, the parameters."""
@@ -314,10 +319,13 @@ class State:
         self.ask("set a parameter:  name = value", self._assign)
 
     def _assign(self, text: str) -> None:
-        name, _, value = text.partition("=")
-        subject = self.subject.assigned([f"{name.strip()}={value.strip()}"] if value else [text])
+        name, equals, value = text.partition("=")
+        name = name.strip()
+        subject = self.subject.assigned([f"{name}={value.strip()}"] if equals else [text])
+        if subject.parameters()[name].picture and subject.value(name):
+            read_picture(find_picture(subject.value(name)))  # or it raises
         self._replace(subject)
-        self.say(f"{name.strip()} = {subject.shown(name.strip())}")
+        self.say(f"{name} = {subject.shown(name)}")
 
     def type_text(self, text: str) -> None:
         """More of the line that is asked for."""
@@ -361,6 +369,20 @@ class State:
                 subject = subject.changed("compare", "")  # the hand wants to see this value
         self._replace(subject)
 
+    def choose(self, name: str, value: Any) -> None:
+        """A parameter by hand: changed and told, or told why not."""
+        try:
+            self._tell(name, value)
+        except (ReparamError, ValueError) as fault:
+            self.say(str(fault), 8.0)
+
+    def assign(self, name: str, text: str) -> None:
+        """A parameter by its text, as on the command line: changed and told, or told why not."""
+        try:
+            self._assign(f"{name}={text}")
+        except (ReparamError, ValueError) as fault:
+            self.say(str(fault), 8.0)
+
     def begin_gesture(self) -> None:
         """What changes from now on, until `end_gesture`, is one step: a drag of the mouse."""
         self._gesture = object()
@@ -379,7 +401,7 @@ class State:
         """To `there`, the other side of a step whose this side is `here`."""
         self._motion = None
         if self.subject.scene.name != there.subject.scene.name:
-            self._visit(there.subject.scene.name)
+            self.visit(there.subject.scene.name)
         if self.views == here.views:  # else the user looks from elsewhere by now
             self.views = dict(there.views)
         self.subject = there.subject
@@ -470,7 +492,8 @@ class State:
         self.changed = True
         self.say(f"{subject.scene.name}: {subject.title}")
 
-    def _visit(self, name: str) -> None:
+    def visit(self, name: str) -> None:
+        """One of the pages, as it was left."""
         here = self.subject.scene.name
         if name == here:
             return

@@ -16,6 +16,7 @@ from ..gpu.context import create_for_window
 from ..gpu.diagnosis import explain
 from ..gpu.painter import Painter, Panel
 from ..gpu.targets import Target
+from ..scenes import palette
 from ..scenes.layers import Handles
 from ..subject import Subject
 from .grips import draw_grid, draw_grip, draw_handles
@@ -25,6 +26,7 @@ from .loading import Loading, Opener
 from .mouse import Mouse, content_scale
 from .overlay import Sheet, draw_help, draw_notice, draw_progress, draw_prompt
 from .screen import screen_missing
+from .side import Side
 from .state import State
 
 FRAME_SECONDS = 1 / 60
@@ -116,7 +118,9 @@ class Viewer:
         self._began = time.perf_counter()
         self._mouse = Mouse(window, self.state)
         self.keeping = Keeping(window, painter, self.state, self._drawn, self._paint)
-        self._keyboard = Keyboard(window, self.state, (self, self.keeping, self.state), self._guard)
+        self.side = Side(window, painter, self.state, lambda path: self._on_drop(window, [path]))
+        actors = (self, self.keeping, self.side, self.state)
+        self._keyboard = Keyboard(window, self.state, actors, self._guard)
         on_drop: Any = self._on_drop
         glfw.set_drop_callback(window, on_drop)
         glfw.set_framebuffer_size_callback(window, self._on_damage)
@@ -129,10 +133,11 @@ class Viewer:
             self._tick()
             self._guard(self.keeping.follow_loading)
             self._guard(self._mouse.settle)
+            self.state.refresh |= self.side.busy
             began = time.perf_counter()
             if drew := self._draw_changes():
                 time.sleep(max(0.0, began + FRAME_SECONDS - time.perf_counter()))
-            if self.state.moving:
+            if self.state.moving or self.side.busy:
                 glfw.wait_events_timeout(1e-3 if drew else FRAME_SECONDS)
             elif self.keeping.loading is not None:
                 glfw.wait_events_timeout(PROGRESS_SECONDS)
@@ -165,7 +170,7 @@ class Viewer:
 
     def _draw(self) -> bool:
         """Draw a frame; whether it could be done. Nothing while iconified."""
-        size = glfw.get_framebuffer_size(self._window)
+        size = self.side.picture_size()
         if min(size) < 1:
             return False
         self.state.changed = False
@@ -207,6 +212,8 @@ class Viewer:
             self._target.release()
             self._target = None
         self._target = Target(self._ctx, size, samples, self._painter.capabilities)
+        self._target.framebuffer.clear(*palette.GROUND, 1.0)  # should the scene not be drawable
+        self._target.resolve()
         self._samples = samples
 
     def _present(self, target: Target) -> None:
@@ -223,6 +230,7 @@ class Viewer:
             draw_notice(sheet, self.state.notice)
         if (loading := self.keeping.loading) is not None:
             draw_progress(sheet, loading.name, loading.share)
+        self.side.draw()
         glfw.swap_buffers(self._window)
         self.state.presented(time.perf_counter() - self._began)
 

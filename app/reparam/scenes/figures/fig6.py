@@ -80,7 +80,9 @@ def claims() -> Iterator[Claim]:
     statement = "the same, q the identity: 3/2 at the centre, 3/2 and 1 in the middle of an edge"
     middle = stretches(ALIGNED_IDENTITY, [(0.5, 0.5), (0.0, 0.5)])
     yield Claim("Fig. 6", statement, [1.5, 1.5, 1.5, 1.0], middle, 1e-12)
-    statement = "share of the pixels that have the picture's colour at q(x⁻¹(x, y)), q the identity"
+    statement = (
+        "share of the pixels (x, y) = x(u, v) in the picture's colour at q(u, v), q the identity"
+    )
     yield Claim("Fig. 6", statement, 1.0, inverted_share, 0)
 
 
