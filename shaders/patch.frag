@@ -9,6 +9,12 @@
 //        |   o  centre
 //     ---+---|-------------- v = 1
 //        |   x  inside             picture(o) + d(picture)/d(pixel) * (x - o)
+//
+// A trimmed surface is cut off at pixel centres, or with ANTIALIASED fades into what is behind it
+// by the share of the pixel that stays.
+
+// Here, for a file is expanded once, under whatever condition.
+#include "lib/net.glsl"
 
 uniform vec4 color;
 #ifdef TEXTURED
@@ -34,6 +40,10 @@ uniform ivec2 position_degree;
 const ivec2 position_degree = ivec2(POSITION_DEGREE_U, POSITION_DEGREE_V);
 #endif
 uniform float scale;   // of curvature: where the colour is full
+#endif
+#ifdef TRIMMED
+#include "lib/trim.glsl"
+in vec2 trim_parameters;
 #endif
 
 out vec4 fragment;
@@ -94,5 +104,15 @@ void main() {
 #endif
     float facing = abs(dot(normal, normalize(vec3(-0.35, 0.45, 1.0))));
     fragment.rgb *= ambient + (1.0 - ambient) * facing;
+#endif
+#ifdef TRIMMED
+#ifdef ANTIALIASED
+    float share = pixel_coverage(trim_parameters, dFdx(trim_parameters), dFdy(trim_parameters));
+#else
+    float share = winding_number(trim_parameters) != 0 ? 1.0 : 0.0;
+#endif
+    if (share == 0.0)
+        discard;
+    fragment.a *= share;
 #endif
 }

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import cache
 
 import numpy as np
 
 from reparam.geometry.net import Array
+from reparam.geometry.trimming import TrimRegion, trim_region
 
 Loop = list[Array]
 
@@ -100,6 +102,12 @@ def blob(random: np.random.Generator, center: Sequence[float], radius: float) ->
     return pieces
 
 
+def discs(side: int) -> list[Loop]:
+    """side * side round holes in even rows."""
+    middles = (np.stack(np.divmod(np.arange(side**2), side), -1) + 0.5) / side
+    return [reverse(circle(middle, 0.4 / side)) for middle in middles]
+
+
 def random_loops(random: np.random.Generator, side: int) -> list[Loop]:
     """A square with side * side holes, islands in some of them; a few reach over the border."""
     loops = [[SQUARE[0] * 2.0 - 0.5]]
@@ -113,3 +121,22 @@ def random_loops(random: np.random.Generator, side: int) -> list[Loop]:
             if random.random() < 0.5:
                 loops.append(blob(random, center, 0.2 * radius))
     return loops
+
+
+CASES: dict[str, Callable[[], list[Loop]]] = {
+    "red book": red_book,
+    "cusps": cusps,
+    "slivers": slivers,
+    "blobs": lambda: random_loops(np.random.default_rng(1), 4),
+    "more blobs": lambda: random_loops(np.random.default_rng(2), 3),
+    "sixty-four": lambda: discs(8),
+    "over the border": lambda: [circle((1.0, 1.0)), circle((0.0, 0.3), 0.2), star((0.5, 0.4), 0.2)],
+    "no loops": list,
+}
+"""By name, loops that `trim_region` takes."""
+
+
+@cache
+def region_of(name: str) -> TrimRegion:
+    """The region of a case, made once."""
+    return trim_region(CASES[name]())

@@ -38,5 +38,8 @@ void emit_surface(int patch_index, vec4 uv) {
 #ifdef TEXTURED
     emit_map(evaluate(texture_net, patch_index * texture_stride, texture_degree, uv), uv.xz);
 #endif
+#ifdef TRIMMED
+    emit_trim(patch_index, uv);
+#endif
 }
 #endif

@@ -9,6 +9,13 @@ out vec3 image_map;
 out vec2 parameters;
 #endif
 
+#ifdef TRIMMED
+#include "net.glsl"
+uniform sampler2D patch_domains;   // of each patch (u0, u1, v0, v1) in the trim region's square
+uniform int domain_stride;         // 0: one domain shared by all patches
+out vec2 trim_parameters;
+#endif
+
 #ifdef LIT
 uniform mat3 view_from_model;
 out vec3 view_normal;
@@ -31,6 +38,14 @@ out vec2 located_uv;
 void emit_place(int patch_index, vec2 uv) {
     located_patch = patch_index;
     located_uv = uv;
+}
+#endif
+
+#ifdef TRIMMED
+// uv = (u, 1-u, v, 1-v): neighbours have the parameters of their common edge bit for bit.
+void emit_trim(int patch_index, vec4 uv) {
+    vec4 domain = control_point(patch_domains, patch_index * domain_stride);
+    trim_parameters = vec2(domain.x * uv.y + domain.y * uv.x, domain.z * uv.w + domain.w * uv.z);
 }
 #endif
 

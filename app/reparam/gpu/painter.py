@@ -261,7 +261,10 @@ class Painter:
                 viewport = (panel.region.width, panel.region.height)
                 off = display.tolerance
                 fine: Fine = Tolerance(off, viewport) if off else display.level
-                self.surfaces.draw(layer, camera, evaluator, fine, display.shading, scale)
+                self.surfaces.draw(
+                    layer, camera, evaluator, fine, display.shading, scale,
+                    spatial=panel.space.spatial,
+                )  # fmt: skip
                 if display.wireframe:
                     nearer = camera.nearer(1e-3)
                     self.surfaces.draw_wireframe(layer, nearer, evaluator, fine, palette.INK)

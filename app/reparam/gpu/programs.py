@@ -13,6 +13,7 @@ from ..errors import GraphicsError
 from ..geometry.curvature import REGULAR
 from ..geometry.net import MAX_ORDER
 from ..geometry.normal import SINGULAR_FACTOR, SINGULAR_SINE, SINGULAR_STEP
+from ..geometry.trimming.cells import DIVISION, MARGIN
 from ..scenes.shading import HIGH_COLOR, LOW_COLOR, ZEBRA_BANDS
 from .nets import NET_WIDTH
 
@@ -57,6 +58,8 @@ def stage_source(
         "SINGULAR_SINE": SINGULAR_SINE,
         "SINGULAR_STEP": SINGULAR_STEP,
         "SINGULAR_FACTOR": SINGULAR_FACTOR,
+        "TRIM_DIVISION": DIVISION,
+        "TRIM_MARGIN": MARGIN,
         "REGULAR": REGULAR,
         "ZEBRA_BANDS": float(ZEBRA_BANDS),
         "LOW_COLOR": ", ".join(map(str, LOW_COLOR)),

@@ -22,6 +22,7 @@ from .kept import Kept
 from .nets import NET_UNIT
 from .pictures import Pictures
 from .programs import Program, Programs, degree_defines
+from .trims import Trims
 
 Array = NDArray[np.float64]
 
@@ -30,6 +31,8 @@ KEPT_BYTES = 1 << 29  # a layer that needs more is evaluated anew for each frame
 SHAPED = ("zebra", "gauss", "mean")  # told by the patch's own derivatives, fragment by fragment
 
 Fine = int | Tolerance  # steps in u and in v of every patch, or what a drawn point may be off
+
+SAMPLE_ALPHA_TO_COVERAGE = 0x809E
 
 grid = lru_cache(maxsize=16)(grid_parameters)
 
@@ -68,6 +71,7 @@ class Surfaces:
         self._chunk = SOFTWARE_CHUNK if capabilities.software else 1 << 20
         self.pictures = Pictures(ctx, capabilities)
         self.adaptive = Adaptive(ctx, programs, evaluation, capabilities)
+        self._trims = Trims(ctx)
         self._batches: Kept[list[Batch]] = Kept(_release)
         self._indices: dict[tuple[int, int], moderngl.Buffer] = {}
 
@@ -79,16 +83,29 @@ class Surfaces:
         fine: Fine,
         shading: Shading = "light",
         scale: float = 1.0,
+        *,
+        spatial: bool = False,
     ) -> None:
         """The layer as its picture, colour and light say; if lit, as `shading` says instead.
 
-        `scale` is the curvature that has the full colour.
+        `scale` is the curvature that has the full colour. The edge of a trimmed surface is
+        blended with what is behind it; in space that may not be drawn yet, so there the pixel's
+        samples are shared out.
         """
         look = Look(layer.color)
         if layer.lit and shading != "light":
             color = layer.kind.color if shading == "kind" else (1.0, 1.0, 1.0)
             layer, look = replace(layer, texture=None), Look(color, shading, scale)
-        self._draw(layer, camera, evaluator, fine, look)
+        share_samples = layer.trim is not None and spatial and self._ctx.fbo.samples > 1
+        if share_samples:
+            self._ctx.enable_direct(SAMPLE_ALPHA_TO_COVERAGE)
+            self._ctx.disable(moderngl.BLEND)
+        try:
+            self._draw(layer, camera, evaluator, fine, look)
+        finally:
+            if share_samples:
+                self._ctx.disable_direct(SAMPLE_ALPHA_TO_COVERAGE)
+                self._ctx.enable(moderngl.BLEND)
 
     def draw_wireframe(
         self, layer: Patches, camera: Camera, evaluator: str, fine: Fine, color: Color
@@ -119,6 +136,7 @@ class Surfaces:
         """End of a frame."""
         self._batches.sweep()
         self.adaptive.sweep()
+        self._trims.sweep()
 
     def forget(self) -> None:
         """Drop what older shaders evaluated."""
@@ -135,6 +153,10 @@ class Surfaces:
                 defines["MIRRORED"] = 1
         if layer.lit and not look.bare:
             defines["LIT"] = 1
+        if layer.trim is not None:
+            defines["TRIMMED"] = 1
+            if self._ctx.fbo.samples > 1 and not look.bare:
+                defines["ANTIALIASED"] = 1
         return defines
 
     def set_common(self, program: Program, layer: Patches, camera: Camera, look: Look) -> None:
@@ -155,6 +177,8 @@ class Surfaces:
             scale, offset = picture.scale, picture.offset
             reach = 0.75 if picture.filter == "smooth" else 0.0
             program.set(image=2, image_from_map=(scale, scale, offset, offset), reach=reach)
+        if "TRIMMED" in program.defines:
+            self._trims.bind(program, layer, unit=3)
 
     # The vertex evaluator -------------------------------------------------------------------
 
@@ -175,10 +199,7 @@ class Surfaces:
             if maps is not None:
                 content.append((next(maps).vertices, "4f", "map"))
             self.set_common(program, layer, camera, look)
-            if "TEXTURED" in defines or "SHAPED" in defines:
-                program.set(level=level)
-            if "SHAPED" in defines:
-                program.set(first_patch=batch.patches[0])
+            program.set(level=level, first_patch=batch.patches.start)
             vertices = self._ctx.vertex_array(
                 program.ready(), content, self._triangles(level, len(batch.patches))
             )

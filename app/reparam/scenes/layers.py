@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from ..geometry.evaluate import evaluate, project, sample_surface
 from ..geometry.formula import Formula
+from ..geometry.trimming import TrimRegion
 
 if TYPE_CHECKING:
     from ..evaluators.light import Light
@@ -69,15 +70,24 @@ class Kind:
 
 @dataclass(frozen=True)
 class Patches:
-    """Tensor-product Bezier patches of one order: a net (m, n, 4) or (patches, m, n, 4)."""
+    """Tensor-product Bezier patches of one order: a net (m, n, 4) or (patches, m, n, 4).
+
+    Patches of one surface share its trim region; `domains` (patches, 4) says where each lies
+    in the surface's parameters: u0, u1, v0, v1.
+    """
 
     net: Array
     texture: Texture | None = None
     color: Color = (1.0, 1.0, 1.0)
     lit: bool = False
     kind: Kind = Kind()
+    domains: Array | None = None  # None: all are the unit square
+    trim: TrimRegion | None = None  # None: the whole surface
 
     def __post_init__(self) -> None:
+        count = self.net.shape[0] if self.net.ndim == 4 else 1
+        if self.domains is not None and self.domains.shape != (count, 4):
+            raise ValueError(f"expected domains ({count}, 4), found {self.domains.shape}")
         _freeze(self)
 
 

@@ -19,9 +19,10 @@ from ..roots import bernstein_roots, multiply
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
+Mask = NDArray[np.bool_]
 
 STRAIGHT = -1
-BISECTIONS = 54
+MOST_STEPS = 110
 LEAST_SPAN = 1e-9  # turning within so short a stretch is less than rounding
 
 
@@ -46,7 +47,7 @@ class Pieces:
     def __len__(self) -> int:
         return len(self.table)
 
-    def take(self, index: Indices | NDArray[np.bool_]) -> Pieces:
+    def take(self, index: Indices | Mask) -> Pieces:
         """Some of the pieces."""
         return replace(
             self,
@@ -92,21 +93,32 @@ class Pieces:
     def solve(self, index: Indices, axis: int, value: Array) -> Array:
         """The parameters (k,) where coordinate `axis` (0: u, 1: v) of pieces takes these values.
 
-        By bisection, within the piece: values beyond its ends give its ends.
+        Newton's method, with bisection where it leaves the span or does not get on. Values
+        beyond a piece's ends give its ends.
         """
+        start, end = self.ends[index, 0, axis], self.ends[index, 1, axis]
+        chord = np.where(end != start, end - start, 1.0)
         low, high = self.span[index].T.copy()
-        rising = self.ends[index, 1, axis] >= self.ends[index, 0, axis]
-        straight = self.table[index] == STRAIGHT
-        chord = self.ends[index, 1, axis] - self.ends[index, 0, axis]
-        share = (value - self.ends[index, 0, axis]) / np.where(chord != 0.0, chord, 1.0)
-        t = np.where(straight, np.clip(share, 0.0, 1.0), 0.0)
-        bent = np.flatnonzero(~straight)
-        low, high, rising = low[bent], high[bent], rising[bent]
-        for _ in range(BISECTIONS if len(bent) else 0):
-            middle = (low + high) / 2.0
-            before = (self.points(index[bent], middle)[:, axis] < value[bent]) == rising
-            low, high = np.where(before, middle, low), np.where(before, high, middle)
-        t[bent] = (low + high) / 2.0
+        t: Array = low + np.clip((value - start) / chord, 0.0, 1.0) * (high - low)
+        active = np.flatnonzero(self.table[index] != STRAIGHT)
+        low, high, sign = low[active], high[active], np.sign(chord[active])
+        last = high - low
+        for _ in range(MOST_STEPS):
+            if len(active) == 0:
+                break
+            here, piece = t[active], index[active]
+            off = (self.points(piece, here)[:, axis] - value[active]) * sign
+            slope = self.velocities(piece, here)[:, axis] * sign
+            low, high = np.where(off < 0.0, here, low), np.where(off < 0.0, high, here)
+            after = here - off / np.where(slope > 0.0, slope, 1.0)
+            newton = (slope > 0.0) & (low <= after) & (after <= high)
+            newton &= np.abs(after - here) <= last / 2.0
+            after = np.where(newton, after, (low + high) / 2.0)
+            last = np.abs(after - here)
+            t[active] = after
+            going = (last > 2e-16) & (off != 0.0)
+            t[active[off == 0.0]] = here[off == 0.0]
+            active, low, high, sign, last = (x[going] for x in (active, low, high, sign, last))
         return t
 
     def split(self, index: Indices, t: Array, at: Array) -> Pieces:
@@ -225,6 +237,6 @@ def clamp_to_square(pieces: Pieces) -> Pieces:
     return replace(pieces, table=table, span=span, ends=ends).without_points()
 
 
-def on_border(ends: Array) -> NDArray[np.bool_]:
+def on_border(ends: Array) -> Mask:
     """Which pieces (n, 2, 2) run along one side of the unit square."""
     return np.asarray(((ends == 0.0).all(1) | (ends == 1.0).all(1)).any(-1))

@@ -3,8 +3,8 @@
 A loop is a closed chain of pieces; what lies to the left of it stays: the inside of a
 counter-clockwise loop, the outside of a clockwise one. Loops may be nested, with alternating
 orientation; beyond the domain they are clipped; no loops leave the whole surface. (OpenGL
-Graphics with the X Window System, gluBeginTrim; EVALUATORS: libGLU 9.0.2 agrees, except that
-it draws nothing where all outermost loops are clockwise, and says nothing about bad loops.)
+Graphics with the X Window System, gluBeginTrim. libGLU 9.0.2 agrees, except that it draws
+nothing where all outermost loops are clockwise, and is silent about bad loops.)
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .errors import BadTrimPiece, EmptyTrim, UnconnectedTrim
+from .packing import PackedTrim, pack
 from .pieces import Array, Chain, Pieces, clamp_to_square, monotone_pieces, on_border
 from .validation import check_loops
 from .winding import WindingIndex, area_integrals
@@ -52,6 +53,14 @@ class TrimRegion:
     def _curves(self) -> WindingIndex:
         """The pieces without the domain's own border."""
         return WindingIndex(self.pieces.take(~on_border(self.pieces.ends)))
+
+    def pack(self) -> PackedTrim:
+        """The region as arrays for the GPU; made once."""
+        return self._packed
+
+    @cached_property
+    def _packed(self) -> PackedTrim:
+        return pack(self.pieces, self.index)
 
     def to_square(self, u: ArrayLike, v: ArrayLike) -> Array:
         """Parameters of the surface as points (..., 2) of the unit square."""

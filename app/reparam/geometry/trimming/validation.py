@@ -20,6 +20,7 @@ from .winding import WindingIndex, area_integrals, expand
 
 CONTACT = 1e-7  # two pieces nearer than this meet, in the domain's unit square
 PROBE = 4e-6  # how far around a contact the winding numbers are looked at
+APART = 1e-9  # how far across their way branches must part, to look between them
 LEAST_AREA = 1e-13
 MOST_ENTRIES = 1 << 22
 BRANCHES = 32  # places where one pair of pieces may meet that are followed up
@@ -98,12 +99,14 @@ def around(pieces: Pieces, pair: Indices, t: Array) -> Array:
         ahead = pieces.points(pair[:, side], np.minimum(t[:, side] + step, high))
         behind = pieces.points(pair[:, side], np.maximum(t[:, side] - step, low))
         branches.append((ahead, behind))
+    along = pieces.velocities(pair[:, 0], t[:, 0])
+    along /= np.maximum(np.hypot(*along.T), 1e-30)[:, None]
     for a in branches[0]:
         for b in branches[1]:
-            apart = np.abs(a - b).max(1, keepdims=True) > 1e-3 * PROBE  # else on the curves
-            probes = np.concatenate(
-                [probes, np.where(apart, (a + b) / 2.0, circle[:, 0])[:, None]], 1
-            )
+            across = (a - b)[:, 0] * along[:, 1] - (a - b)[:, 1] * along[:, 0]
+            apart = np.abs(across)[:, None] > APART  # else amid is on the curves
+            amid = np.where(apart, (a + b) / 2.0, circle[:, 0])
+            probes = np.concatenate([probes, amid[:, None]], 1)
     return probes
 
 

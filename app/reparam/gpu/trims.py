@@ -1,0 +1,101 @@
+"""Trim regions as textures. Twin: shaders/lib/trim.glsl reads them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import GraphicsError
+from ..geometry.trimming import TrimRegion
+from ..geometry.trimming.packing import PackedTrim
+from ..scenes.layers import Patches
+from .kept import Kept
+from .nets import NET_WIDTH, net_texture
+from .programs import Program
+
+Array = NDArray[np.float64]
+
+UNIT_SQUARE = np.array([[0.0, 1.0, 0.0, 1.0]])
+
+
+@dataclass(frozen=True)
+class TrimTextures:
+    """A packed region on the GPU."""
+
+    nodes: moderngl.Texture
+    pieces: moderngl.Texture
+    shares: moderngl.Texture
+
+    def release(self) -> None:
+        """Give the memory back."""
+        for texture in (self.nodes, self.pieces, self.shares):
+            texture.release()
+
+
+class Trims:
+    """What programs with TRIMMED read."""
+
+    def __init__(self, ctx: moderngl.Context) -> None:
+        self._ctx = ctx
+        self._regions: Kept[TrimTextures] = Kept(TrimTextures.release)
+        self._domains: Kept[moderngl.Texture] = Kept(lambda texture: texture.release())
+
+    def bind(self, program: Program, layer: Patches, unit: int) -> None:
+        """The layer's region and the domains of its patches, in four units from `unit` on.
+
+        Raises GraphicsError where the region is too large.
+        """
+        region, domains = layer.trim, layer.domains
+        assert region is not None
+        packed = region.pack()
+        textures = self._regions.get(packed.shares, None, lambda: self._upload(packed))
+        where = self._domains.get(
+            packed.shares if domains is None else domains,
+            region.domain,
+            lambda: net_texture(self._ctx, domains_in_square(region, domains)),
+        )
+        bound = (textures.nodes, textures.pieces, textures.shares, where)
+        for number, texture in enumerate(bound, start=unit):
+            texture.use(number)
+        program.set(
+            trim_nodes=unit,
+            trim_pieces=unit + 1,
+            trim_shares=unit + 2,
+            patch_domains=unit + 3,
+            trim_side=packed.side,
+            domain_stride=0 if domains is None else 1,
+        )
+
+    def _upload(self, packed: PackedTrim) -> TrimTextures:
+        rows = -(-len(packed.nodes) // NET_WIDTH)
+        if rows > self._ctx.info["GL_MAX_TEXTURE_SIZE"]:
+            raise GraphicsError(
+                f"expected a trim region of up to {self._ctx.info['GL_MAX_TEXTURE_SIZE']} rows "
+                f"of cells, found {rows}"
+            )
+        nodes = np.zeros((rows * NET_WIDTH, 4), np.int32)
+        nodes[: len(packed.nodes)] = packed.nodes
+        cells = self._ctx.texture((NET_WIDTH, rows), 4, nodes.tobytes(), dtype="i4")
+        cells.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        texels = np.round(255.0 * packed.shares).astype(np.uint8)
+        shares = self._ctx.texture(texels.shape[::-1], 1, texels.tobytes(), alignment=1)
+        shares.repeat_x = shares.repeat_y = False
+        shares.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
+        shares.build_mipmaps()
+        pieces = packed.pieces if len(packed.pieces) else np.zeros((1, 3, 4))
+        return TrimTextures(cells, net_texture(self._ctx, pieces.astype(np.float64)), shares)
+
+    def sweep(self) -> None:
+        """End of a frame."""
+        self._regions.sweep()
+        self._domains.sweep()
+
+
+def domains_in_square(region: TrimRegion, domains: Array | None) -> Array:
+    """The patches' (u0, u1, v0, v1) in the region's unit square: (patches, 1, 4)."""
+    given = UNIT_SQUARE if domains is None else domains
+    low, high = (region.to_square(given[:, i], given[:, i + 2]) for i in (0, 1))
+    return np.stack([low[:, 0], high[:, 0], low[:, 1], high[:, 1]], -1)[:, None, :]
