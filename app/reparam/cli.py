@@ -136,6 +136,17 @@ def parser() -> argparse.ArgumentParser:
     trace.add_argument("-o", "--output", type=Path, metavar="OUT.csv", help="else it is printed")
     trace.set_defaults(run=run_trace)
 
+    export = commands.add_parser("export", help="write what is seen: .bv, .obj, .stl, .ply, .glb")
+    export.add_argument("subject", metavar="SCENE|FILE")
+    export.add_argument(
+        "-o", "--output", required=True, metavar="OUT.bv|obj|stl|ply|glb", type=Path
+    )
+    export.add_argument(
+        "--level", type=int, metavar="N", help="steps in u and in v; the display's if not given"
+    )
+    _add_assignments(export)
+    export.set_defaults(run=run_export, views=[])
+
     doctor = commands.add_parser("doctor", help="what OpenGL is here, and what mends it")
     doctor.add_argument("--json", action="store_true")
     doctor.set_defaults(run=run_doctor)
@@ -320,6 +331,20 @@ def run_bench(options: argparse.Namespace) -> int:
         import json
 
         print(json.dumps([row.as_json() for row in rows], indent=2))
+    return 0
+
+
+def run_export(options: argparse.Namespace) -> int:
+    """The patches that are seen, or their triangles, as a file."""
+    from .exporting import export
+    from .files.output import check_output
+
+    endings = (".bv", ".obj", ".stl", ".ply", ".glb")
+    output = check_output(options.output, endings)
+    subject = _subject(options)
+    if options.level is not None:
+        subject = subject.assigned([f"level={options.level}"])
+    export(subject, output)
     return 0
 
 

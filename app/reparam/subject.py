@@ -139,6 +139,11 @@ def open_subject(name: str, progress: Progress = silent) -> Subject:
         from .saving import open_saved
 
         return open_saved(path, lambda found: open_subject(found, progress))
+    if path.suffix.lower() == ".obj":
+        from .files.obj import read_obj
+
+        opened = scene_subject(file_scene(), {"body": read_obj(path)}, path.name, name)
+        return opened.changed("smooth", "layout")
     if path.suffix.lower() == ".bv" or os.path.exists(path):  # Path.exists raises on long names
         from .files.bv import read_bv
 

@@ -27,6 +27,7 @@ from ..geometry.body import (
     TRIANGLE_DOMAIN,
     Body,
     Patch,
+    Polyhedron,
     body,
     face_patches,
     homogeneous,
@@ -36,7 +37,7 @@ from ..geometry.net import MAX_ORDER, Array, check_net
 from .progress import Progress, silent
 from .tokens import Numbers, read_text, runs
 
-RATIONAL = 8
+POLYHEDRON, RATIONAL = 1, 8
 REFUSED = {6: "trim curve", 7: "B-spline", 9: "triangle with normals", 10: "tensor with normals"}
 TELL = 500  # patches between words about progress
 MAX_CORNERS = 10_000  # of one face: cutting a polygon up may take time like its square
@@ -51,6 +52,8 @@ def read_bv(path: str | os.PathLike[str], progress: Progress = silent) -> Body:
     """
     path = Path(path)
     patches: list[Patch] = []
+    vertices: list[Array] = []
+    faces: list[list[int]] = []
     rational: list[tuple[Array, Numbers, int]] = []
     told = 0
     for group, numbers in runs(path, read_text(path), progress):
@@ -60,7 +63,14 @@ def read_bv(path: str | os.PathLike[str], progress: Progress = silent) -> Body:
                 progress(numbers.share())
                 told = len(patches) + TELL
             kind = _kind(numbers)
-            patches += SEGMENTS[kind](numbers, group)
+            if kind == POLYHEDRON:
+                points, corners = _polyhedron(numbers)
+                patches += face_patches(points, corners, group)
+                before = sum(map(len, vertices))
+                vertices.append(points)
+                faces += [[before + corner for corner in face] for face in corners]
+            else:
+                patches += SEGMENTS[kind](numbers, group)
             if len(patches) > MAX_PATCHES:
                 raise numbers.error(start, f"at most {MAX_PATCHES} patches", "more")
             if kind == RATIONAL:
@@ -68,7 +78,7 @@ def read_bv(path: str | os.PathLike[str], progress: Progress = silent) -> Body:
     if not patches:
         raise numbers.error(numbers.position, "a patch")
     try:
-        return body(patches)
+        return body(patches, Polyhedron(np.concatenate(vertices), faces) if faces else None)
     except ValueError as fault:
         for net, numbers, end in rational:
             _refuse_bad_point(net, numbers, end - net.size)
@@ -77,7 +87,7 @@ def read_bv(path: str | os.PathLike[str], progress: Progress = silent) -> Body:
 
 def _kind(numbers: Numbers) -> int:
     kind = numbers.take(1, "a patch kind")[0]
-    if kind not in SEGMENTS:
+    if kind not in SEGMENTS and kind != POLYHEDRON:
         found = f"kind {kind:g}, {REFUSED[kind]}" if kind in REFUSED else ""
         raise numbers.error(numbers.position - 1, "a patch of kind 1, 3, 4, 5 or 8", found)
     return int(kind)
@@ -101,7 +111,7 @@ def _refuse_bad_point(net: Array, numbers: Numbers, start: int) -> None:
                 raise numbers.error(start + 4 * point + 3, expected, found) from None
 
 
-def _polyhedron(numbers: Numbers, group: str) -> list[Patch]:
+def _polyhedron(numbers: Numbers) -> tuple[Array, list[list[int]]]:
     count = numbers.integer("a number of vertices", 1)
     face_count = numbers.integer("a number of faces", 0, MAX_PATCHES)
     vertices = _points(numbers, count, 3)
@@ -118,7 +128,7 @@ def _polyhedron(numbers: Numbers, group: str) -> list[Patch]:
         if triangles > MAX_PATCHES:
             raise numbers.error(numbers.position - 1, f"at most {MAX_PATCHES} triangles", "more")
         faces.append(face)
-    return face_patches(vertices, faces, group)
+    return vertices, faces
 
 
 def _triangle(numbers: Numbers, group: str) -> list[Patch]:
@@ -157,7 +167,6 @@ def _points(numbers: Numbers, count: int, size: int) -> Array:
 
 
 SEGMENTS: dict[float, Callable[[Numbers, str], list[Patch]]] = {
-    1: _polyhedron,
     3: _triangle,
     4: _square,
     5: _tensor,

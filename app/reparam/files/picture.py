@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -33,6 +34,14 @@ def _quiet() -> Iterator[None]:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         yield
+
+
+def png_bytes(pixels: Pixels) -> bytes:
+    """The picture as PNG."""
+    upside_down = Image.frombytes("RGB", pixels.size, pixels.data)
+    stream = io.BytesIO()
+    upside_down.transpose(Image.Transpose.FLIP_TOP_BOTTOM).save(stream, "PNG", optimize=True)
+    return stream.getvalue()
 
 
 def find_picture(source: str) -> Path:

@@ -28,7 +28,7 @@ WORD = re.compile(rb"\S+")
 GROUP = re.compile(rb"[Gg]roup(?<!\S[Gg]roup)(?!\S)[^\n]*")  # the letters first: they are rare
 
 
-def read_text(path: Path) -> bytes:
+def read_text(path: Path, kind: str = ".bv") -> bytes:
     """The file without byte order mark and blanks at its end, its lines ended by newlines.
 
     Raises FileFormatError for what cannot be read, is larger than MAX_BYTES, or is not text.
@@ -36,14 +36,14 @@ def read_text(path: Path) -> bytes:
     try:
         if not path.is_file():
             found = "a directory" if path.is_dir() else "a device" if path.exists() else "no file"
-            raise FileFormatError(f"{path}: expected a readable .bv file, found {found}")
+            raise FileFormatError(f"{path}: expected a readable {kind} file, found {found}")
         size = path.stat().st_size
         if size > MAX_BYTES:
             raise FileFormatError(f"{path}: expected at most {MAX_BYTES} bytes, found {size}")
         data = path.read_bytes()
     except OSError as error:
         found = error.strerror or "an error"
-        raise FileFormatError(f"{path}: expected a readable .bv file, found {found}") from None
+        raise FileFormatError(f"{path}: expected a readable {kind} file, found {found}") from None
     data = data.removeprefix(b"\xef\xbb\xbf").replace(b"\r\n", b"\n").replace(b"\r", b"\n")
     if odd := ODD.search(data):
         place = f"{path}:{_line(data, odd.start())}"

@@ -44,19 +44,29 @@ class Patch:
 
 
 @dataclass(frozen=True, eq=False)
+class Polyhedron:
+    """Vertices (V, 3) and faces, lists of indices counter-clockwise from outside; not checked."""
+
+    vertices: Array
+    faces: Sequence[Sequence[int]]
+
+
+@dataclass(frozen=True, eq=False)
 class Body:
     """Patches of one degree.
 
-    nets (P, m, m, 4), domains (P, 2, 2, 2), groups (P,) as indices of `names`.
+    nets (P, m, m, 4), domains (P, 2, 2, 2), groups (P,) as indices of `names`; the polyhedron
+    that some of the patches are the faces of.
     """
 
     nets: Array
     domains: Array
     groups: NDArray[np.intp]
     names: tuple[str, ...]
+    polyhedron: Polyhedron | None = None
 
 
-def body(patches: Sequence[Patch]) -> Body:
+def body(patches: Sequence[Patch], polyhedron: Polyhedron | None = None) -> Body:
     """The patches in their order, raised to the largest degree that occurs, in u and in v.
 
     With one degree for both directions an edge evaluates to the same bits whether it is a
@@ -81,6 +91,7 @@ def body(patches: Sequence[Patch]) -> Body:
         domains=np.stack([patch.domain for patch in patches]).astype(np.float64),
         groups=np.array([names[patch.group] for patch in patches]),
         names=tuple(names),
+        polyhedron=polyhedron,
     )
 
 

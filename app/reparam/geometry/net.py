@@ -95,6 +95,33 @@ def _raise_axis(net: Array, axis: int, degree: int) -> Array:
     return np.moveaxis(points, 0, axis)
 
 
+def lower_degree(net: Array) -> Array:
+    """The same map (m, n, 4) with the lowest degrees, at least 1, that give it to rounding.
+
+    Mirror-symmetric in its arithmetic, as `raise_degree` is.
+    """
+    for axis in (0, 1):
+        while net.shape[axis] > 2:
+            lower = _lower_axis(net, axis)
+            gap = np.abs(_raise_axis(lower, axis, net.shape[axis] - 1) - net).max()
+            if gap > 1e-14 * np.abs(net).max():
+                break
+            net = lower
+    return net
+
+
+def _lower_axis(net: Array, axis: int) -> Array:
+    """One degree less: from both ends to the middle, solving what raising did."""
+    points = np.moveaxis(net, axis, 0)
+    d = len(points) - 1
+    left, right = [points[0]], [points[-1]]
+    for i in range(1, (d + 1) // 2):
+        left.append((d * points[i] - i * left[-1]) / (d - i))
+        right.append((d * points[d - i] - i * right[-1]) / (d - i))
+    middle = [(left.pop() + right.pop()) / 2.0] if d % 2 else []
+    return np.moveaxis(np.array([*left, *middle, *right[::-1]]), 0, axis)
+
+
 def bounding_box(points: Array) -> Array:
     """Smallest and largest coordinates of (..., d) points: shape (2, d)."""
     flat = points.reshape(-1, points.shape[-1])

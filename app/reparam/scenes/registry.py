@@ -98,7 +98,8 @@ def load_scene(name: str) -> Scene:
         near = get_close_matches(name, scene_names(), 1)
         meant = f"; did you mean {near[0]}?" if near else ""
         raise UsageError(
-            f"expected a scene ({', '.join(scene_names())}) or a .bv file, found {name!r}{meant}"
+            f"expected a scene ({', '.join(scene_names())}) or a file (.bv, .obj), "
+            f"found {name!r}{meant}"
         )
     return _import(name)
 

@@ -57,7 +57,7 @@ OUTLINE_POINTS = 8_000  # of all outlines of a body together
 built_in = lru_cache(maxsize=None)(lambda name: MESHES[name]())
 
 
-def moved_mesh(control: Mesh, moved: Array) -> Mesh:
+def moved_mesh(control: Mesh, moved: Array, name: str = "moved") -> Mesh:
     """The mesh with vertices (vertex, x, y, z) moved. Raises ValueError for an unknown vertex."""
     if not len(moved):
         return control
@@ -65,7 +65,7 @@ def moved_mesh(control: Mesh, moved: Array) -> Mesh:
     for index, *point in moved:
         if index not in range(len(vertices)):
             expected = f"expected a vertex from 0 to {len(vertices) - 1}"
-            raise ValueError(f"moved: {expected}, found {index:g}")
+            raise ValueError(f"{name}: {expected}, found {index:g}")
         vertices[int(index)] = point
     return Mesh(vertices, control.topology)
 
@@ -198,12 +198,12 @@ def parts(spline: SurfaceSpline, nets: Array, maps: Array | None) -> list[tuple[
     return found
 
 
-def vertex_handles(control: Mesh) -> Handles:
-    """A handle at each vertex, into the parameter `moved`."""
+def vertex_handles(control: Mesh, parameter: str = "moved") -> Handles:
+    """A handle at each vertex, into a parameter (vertex, x, y, z)."""
 
     def drag(values: Mapping[str, Any], index: int, point: Array) -> Mapping[str, Any]:
-        rows = {int(row[0]): row for row in values["moved"]}
-        return {"moved": np.array([*(rows | {index: np.array([index, *point])}).values()])}
+        rows = {int(row[0]): row for row in values[parameter]}
+        return {parameter: np.array([*(rows | {index: np.array([index, *point])}).values()])}
 
     names = tuple(f"vertex {k}" for k in range(len(control.vertices)))
     return Handles(control.vertices, drag, names)

@@ -9,14 +9,47 @@ import numpy as np
 
 from ...geometry.body import Body, with_points
 from ...geometry.evaluate import sample_surface
+from ...geometry.mesh import Mesh, mesh
 from .. import palette
 from ..attachments import Checks, Filter, Image, Wrap, attachment
-from ..layers import Array, ControlNet, Figure, Handles, IsoLines, Layer, Patches, Space, Texture
+from ..layers import (
+    Array,
+    ControlNet,
+    Figure,
+    Handles,
+    IsoLines,
+    Layer,
+    Patches,
+    Picture,
+    Space,
+    Texture,
+)
 from ..parameters import Points
 from ..registry import scene
 from ..remember import remember
+from ..splines import (
+    NO_CREASES,
+    NONE_MOVED,
+    Creases,
+    Ratio,
+    count_words,
+    distortion_words,
+    edge_handles,
+    edges_of,
+    moved_mesh,
+    patch_layers,
+    ratios_of,
+    spline_of,
+    vertex_handles,
+)
 
 NONE = np.zeros((0, 6))
+Smooth = Annotated[
+    Literal["off", "on", "layout"],
+    "a polyhedron as it is, or as the control mesh of a smooth surface; layout: textured by the "
+    "mesh laid flat",
+]
+Vertices = Annotated[Array, Points((None, 4), "vertices moved, if smooth: vertex, x, y, z")]
 Moved = Annotated[Array, Points((None, 6), "control points moved: patch, row, column, x, y, z")]
 
 MOST_OUTLINED = 4096
@@ -33,13 +66,24 @@ def surface(
     wrap: Wrap = "mirror",
     filter: Filter = "smooth",
     moved: Moved = NONE,
+    smooth: Smooth = "off",
+    ratio: Ratio = 0.5,
+    creases: Creases = NO_CREASES,
+    vertices: Vertices = NONE_MOVED,
 ) -> Figure:
+    """From .bv files as they are; polyhedra may be the control mesh of a surface spline."""
+    picture = attachment(checks, image, wrap, filter)
+    if smooth != "off":
+        control = moved_mesh(mesh_of(body), vertices, "vertices")
+        return smoothed(
+            control, ratio, creases, "layout" if smooth == "layout" else texture, picture
+        )
     nets = edited(body, moved)
     points = sampled(nets)
     spatial = bool(np.any(nets[..., 2] != 0.0))
     texture_net = nets if texture == "r" else identity(body)
     layers: tuple[Layer, ...] = (
-        Patches(nets, Texture(texture_net, attachment(checks, image, wrap, filter)), lit=spatial),
+        Patches(nets, Texture(texture_net, picture), lit=spatial),
         *outlines(nets),
         ControlNet(nets, palette.CONTROL_NET),
         handles(nets),
@@ -57,6 +101,34 @@ def outlines(nets: Array) -> tuple[IsoLines, ...]:
         return ()
     width = min(1.2, 30.0 / len(nets) ** 0.5)
     return (IsoLines(nets, u=(0.0, 1.0), v=(0.0, 1.0), color=palette.INK, width=width),)
+
+
+def smoothed(control: Mesh, ratio: float, creases: Array, texture: str, picture: Picture) -> Figure:
+    """The surface spline over the file's polyhedron, with its mesh around it."""
+    ratios = ratios_of(control.topology, ratio, creases)
+    spline = spline_of(control.topology, ratios)
+    layers = (
+        *patch_layers(spline, control.vertices, texture, picture),
+        edges_of(control, width=0.4),
+        edge_handles(control, ratios),
+        vertex_handles(control, "vertices"),
+    )
+    caption = (
+        f"{count_words(spline)}; blend ratio {ratio:.2g}",
+        distortion_words(spline, control.vertices, texture),
+    )
+    return Figure((Space("physical", control.vertices, layers, True),), caption)
+
+
+@remember
+def mesh_of(body: Body) -> Mesh:
+    """The file's polyhedron as a mesh. Raises ValueError where there is none, or a bad one."""
+    if body.polyhedron is None:
+        raise ValueError("smooth: expected a file with a polyhedron, found Bezier patches alone")
+    try:
+        return mesh(body.polyhedron.vertices, body.polyhedron.faces)
+    except ValueError as fault:
+        raise ValueError(f"smooth: {fault}") from None
 
 
 @remember

@@ -1,0 +1,121 @@
+"""Reading .obj: what is a mesh, what is refused and at which line; meshes as surface splines."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reparam.errors import FileFormatError, UsageError
+from reparam.files.bv import read_bv
+from reparam.files.obj import read_obj
+from reparam.geometry.patch_joins import joins
+from reparam.subject import Subject, open_subject
+
+CUBE = """# a cube \\
+v -1 -1 -1
+v 1 -1 -1 1.0
+v 1 1 -1
+v -1 1 -1
+v -1 -1 1
+v 1 -1 1
+v 1 1 1
+v -1 1 1
+vt 0 0
+vn 0 0 1
+g sides
+usemtl stone
+f 4/1/1 3/1/1 2/1/1 1/1/1
+f 5//1 6//1 7//1 \\
+  8//1
+f 1 2 6 5
+f 2 3 7 6
+f -6 -5 -1 -2
+f 4 1 5 8
+"""
+BV_CUBE = """1 8 6
+-1 -1 -1  1 -1 -1  1 1 -1  -1 1 -1  -1 -1 1  1 -1 1  1 1 1  -1 1 1
+4 3 2 1 0  4 4 5 6 7  4 0 1 5 4  4 1 2 6 5  4 2 3 7 6  4 3 0 4 7
+"""
+
+
+def written(folder: Path, text: str, name: str = "mesh.obj") -> Path:
+    path = folder / name
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def nets_of(subject: Subject) -> np.ndarray:
+    layers = [layer for layer in subject.figure().spaces[-1].layers if hasattr(layer, "lit")]
+    return np.concatenate([layer.net for layer in layers])
+
+
+def test_a_cube(tmp_path: Path) -> None:
+    found = read_obj(written(tmp_path, CUBE))
+    assert found.polyhedron is not None
+    assert found.polyhedron.vertices.tolist()[1] == [1.0, -1.0, -1.0]
+    assert found.polyhedron.faces[4] == [2, 3, 7, 6]
+    assert found.nets.shape == (6, 2, 2, 4)
+    assert len(joins(found.nets).patches) == 12
+
+
+@pytest.mark.parametrize("name", ["mesh.obj", "mesh.bv"])
+def test_files_are_control_meshes(tmp_path: Path, name: str) -> None:
+    subject = open_subject(str(written(tmp_path, CUBE if name.endswith("obj") else BV_CUBE, name)))
+    assert subject.value("smooth") == ("layout" if name.endswith("obj") else "off")
+    smooth = subject.assigned(["smooth=on", "ratio=0.3", "creases=[[0,1,0.05]]"])
+    report = joins(nets_of(smooth), highest=1)
+    assert len(report.patches) == 192
+    assert report.angles.max() <= 1e-8
+    assert len(nets_of(smooth.assigned(["smooth=off"]))) == 6
+    moved = smooth.assigned(["vertices=[[6,2,2,2]]"])
+    assert np.abs(nets_of(moved) - nets_of(smooth)).max() > 0.1
+
+
+def test_smoothing_what_has_no_good_polyhedron(tmp_path: Path) -> None:
+    patch = open_subject(str(written(tmp_path, "4 1 0 0 0 0 1 0 1 0 0 1 1 0", "patch.bv")))
+    with pytest.raises(UsageError, match="smooth: expected a file with a polyhedron"):
+        patch.assigned(["smooth=on"]).figure()
+    crowded = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 2 1 4\nf 1 2 5\n"
+    subject = open_subject(str(written(tmp_path, crowded)))
+    assert len(nets_of(subject.assigned(["smooth=off"]))) == 3
+    with pytest.raises(UsageError, match="smooth: edge 0-1: expected at most two faces, found the"):
+        subject.figure()
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "words"),
+    [
+        ("", 1, "expected a face, found none"),
+        ("v 0 0 0\n\n# no more", 1, "expected a face, found none"),
+        ("v 0 0\n", 1, "expected v and 3 numbers, found '0 0'"),
+        ("v 0 0 x\n", 1, "expected v and 3 numbers"),
+        ("v 0 nan 0\n", 1, "expected numbers of size up to 1e.18, found nan"),
+        ("v 0 0 1e30\n", 1, "found 1e.30"),
+        ("v 0 0 0\nf 1 1\n", 2, "expected f and 3 to 10000 corners, found 2"),
+        ("v 0 0 0\nv 1 0 0\nf 1 2 3\n", 3, "one of the 2 vertices above, found '3'"),
+        ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n", 4, "found '0'"),
+        ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n", 4, "found '-4'"),
+        ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 a/b\n", 4, "found 'a/b'"),
+        ("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 \\\n2\n", 4, "expected different corners"),
+    ],
+)
+def test_bad_files(tmp_path: Path, text: str, line: int, words: str) -> None:
+    path = written(tmp_path, text)
+    with pytest.raises(FileFormatError, match=f"mesh.obj:{line}: .*{words}"):
+        read_obj(path)
+
+
+def test_what_is_not_there(tmp_path: Path) -> None:
+    with pytest.raises(FileFormatError, match=r"expected a readable \.obj file, found no file"):
+        read_obj(tmp_path / "none.obj")
+
+
+def test_polyhedra_of_one_bv_file_are_one(tmp_path: Path) -> None:
+    tetrahedron = "1 4 4 2 0 0 3 0 0 2 1 0 2 0 1  3 0 2 1 3 0 1 3 3 0 3 2 3 1 2 3\n"
+    found = read_bv(written(tmp_path, BV_CUBE + tetrahedron, "two.bv"))
+    assert found.polyhedron is not None
+    assert len(found.polyhedron.vertices) == 12
+    assert found.polyhedron.faces[6] == [8, 10, 9]
+    assert len(found.nets) == 10
