@@ -41,6 +41,15 @@ def waves(size: int = 64) -> Image.Image:
     return Image.fromarray(pixels[::-1].copy())
 
 
+def ramp(length: int = 256, height: int = 4) -> Image.Image:
+    """From dark violet over green to yellow, left to right: the colours of a field (viridis)."""
+    anchors = [(68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98), (253, 231, 37)]
+    at = np.linspace(0.0, len(anchors) - 1.0, length)
+    rows = [np.interp(at, np.arange(len(anchors)), channel) for channel in np.transpose(anchors)]
+    pixels = np.round(np.stack(rows, -1)).astype(np.uint8)
+    return Image.fromarray(np.broadcast_to(pixels, (height, length, 3)).copy())
+
+
 if __name__ == "__main__":
-    for make in (checkerboard, corners, waves):
+    for make in (checkerboard, corners, ramp, waves):
         make().save(FOLDER / f"{make.__name__}.png", optimize=True)

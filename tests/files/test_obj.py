@@ -11,6 +11,7 @@ from reparam.errors import FileFormatError, UsageError
 from reparam.files.bv import read_bv
 from reparam.files.obj import read_obj
 from reparam.geometry.patch_joins import joins
+from reparam.scenes.layers import Label, Polylines
 from reparam.subject import Subject, open_subject
 
 CUBE = """# a cube \\
@@ -119,3 +120,16 @@ def test_polyhedra_of_one_bv_file_are_one(tmp_path: Path) -> None:
     assert len(found.polyhedron.vertices) == 12
     assert found.polyhedron.faces[6] == [8, 10, 9]
     assert len(found.nets) == 10
+
+
+def test_edges_in_the_colours_of_their_joins(tmp_path: Path) -> None:
+    subject = open_subject(str(written(tmp_path, CUBE))).assigned(["edges=joins"])
+    expected = {"off": ["kink 12"], "on": ["G1 96", "G2 96"]}
+    for smooth, words in expected.items():
+        figure = subject.changed("smooth", smooth).figure()
+        strip, body = figure.spaces
+        assert [layer.text for layer in strip.layers if isinstance(layer, Label)] == words
+        lines = [layer for layer in body.layers if isinstance(layer, Polylines)]
+        assert sum(len(layer.points) for layer in lines[-len(words) :]) == int(words[0][-2:]) * len(
+            words
+        )

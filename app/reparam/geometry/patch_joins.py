@@ -124,6 +124,12 @@ def _edge_curves(nets: Array, t: Array) -> Array:
     return curves.reshape(-1, len(t), 3)
 
 
+def edge_nets(nets: Array, patches: Indices, sides: Indices) -> Array:
+    """The boundary curves of patches as Bezier curves (E, m, 4); `sides` are indices of SIDES."""
+    rows = np.stack([nets[:, 0], nets[:, -1], nets[:, :, 0], nets[:, :, -1]], 1)
+    return np.asarray(rows[patches, sides])
+
+
 def _coincident(
     curves: Array, among: Indices, reach: float
 ) -> tuple[Indices, Indices, NDArray[np.bool_]]:

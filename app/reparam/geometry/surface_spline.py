@@ -72,8 +72,8 @@ class SurfaceSpline:
     picks: what neighbours share is one point, so patches meet bit for bit. Where facets are
     irregular `raised` leads on to the points of bicubic nets, picked by `index` (P, m, m). `facet`
     (P,) is the size of the irregular facet that a patch touches, 4 where it touches none; `face`
-    (P,) the face of the mesh that it belongs to. `whole` is the mesh with its phantoms, `cuts` are
-    the meshes after each cut.
+    (P,) the face of the mesh that it belongs to; `ratios` (E,) are the edges'. `whole` is the mesh
+    with its phantoms, `cuts` are the meshes after each cut.
     """
 
     stages: tuple[Sparse, ...]
@@ -82,6 +82,7 @@ class SurfaceSpline:
     index: Indices
     facet: Indices
     face: Indices
+    ratios: Array
     whole: Topology
     cuts: tuple[Topology, ...]
 
@@ -149,7 +150,7 @@ def surface_spline(t: Topology, ratios: ArrayLike = 0.5) -> SurfaceSpline:
     stages += [regular_facets(last), low]
     belongs = face[last.origin[ring[:, 0]]]
     return SurfaceSpline(
-        tuple(stages), quadratic, raised, index, facet, belongs, whole, tuple(cuts)
+        tuple(stages), quadratic, raised, index, facet, belongs, own, whole, tuple(cuts)
     )
 
 

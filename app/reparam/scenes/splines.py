@@ -156,7 +156,8 @@ def net_layers(control: Mesh, spline: SurfaceSpline) -> tuple[Layer, ...]:
 def patch_layers(
     spline: SurfaceSpline, vertices: Array, texture: str, picture: Picture, outline: float = 0.5
 ) -> tuple[Layer, ...]:
-    """The surface with its texture, one layer for each kind of patch, and the patches' edges."""
+    """The surface with its texture, one layer for each kind of patch, and the patches' edges,
+    unless `outline`, their width, is 0."""
     nets = nets_of(spline, vertices)
     maps = maps_of(spline, vertices) if texture == "layout" else None
     layers: list[Layer] = []
@@ -164,7 +165,9 @@ def patch_layers(
         words = "regular" if size == 4 else f"around {SIDES.get(size, f'{size}-gons')}"
         kind = Kind(palette.FACETS.get(size, palette.FACETS[7]), words)
         layers.append(Patches(part, Texture(own, picture), lit=True, kind=kind))
-    return (*layers, Polylines(outlines(spline.index, nets), palette.INK, outline))
+    if outline:
+        layers.append(Polylines(outlines(spline.index, nets), palette.INK, outline))
+    return tuple(layers)
 
 
 @remember

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -10,8 +11,10 @@ import numpy as np
 from ...geometry.body import Body, with_points
 from ...geometry.evaluate import sample_surface
 from ...geometry.mesh import Mesh, mesh
+from ...geometry.surface_spline import SurfaceSpline
 from .. import palette
 from ..attachments import Checks, Filter, Image, Wrap, attachment
+from ..join_lines import join_lines
 from ..layers import (
     Array,
     ControlNet,
@@ -24,6 +27,7 @@ from ..layers import (
     Space,
     Texture,
 )
+from ..legend import legend
 from ..parameters import Points
 from ..registry import scene
 from ..remember import remember
@@ -37,6 +41,7 @@ from ..splines import (
     edge_handles,
     edges_of,
     moved_mesh,
+    nets_of,
     patch_layers,
     ratios_of,
     spline_of,
@@ -70,29 +75,44 @@ def surface(
     ratio: Ratio = 0.5,
     creases: Creases = NO_CREASES,
     vertices: Vertices = NONE_MOVED,
+    edges: Annotated[Literal["plain", "joins"], "or coloured by how patches join there"] = "plain",
 ) -> Figure:
     """From .bv files as they are; polyhedra may be the control mesh of a surface spline."""
     picture = attachment(checks, image, wrap, filter)
     if smooth != "off":
         control = moved_mesh(mesh_of(body), vertices, "vertices")
-        return smoothed(
-            control, ratio, creases, "layout" if smooth == "layout" else texture, picture
-        )
+        spline = spline_of(control.topology, ratios_of(control.topology, ratio, creases))
+        chosen = "layout" if smooth == "layout" else texture
+        figure = smoothed(control, spline, chosen, picture, 0.5 if edges == "plain" else 0.0)
+        caption = f"{count_words(spline)}; blend ratio {ratio:.2g}"
+        figure = replace(figure, caption=(caption, *figure.caption))
+        return with_joins(figure, nets_of(spline, control.vertices)) if edges == "joins" else figure
     nets = edited(body, moved)
     points = sampled(nets)
     spatial = bool(np.any(nets[..., 2] != 0.0))
     texture_net = nets if texture == "r" else identity(body)
     layers: tuple[Layer, ...] = (
         Patches(nets, Texture(texture_net, picture), lit=spatial),
-        *outlines(nets),
+        *(outlines(nets) if edges == "plain" else ()),
         ControlNet(nets, palette.CONTROL_NET),
         handles(nets),
     )
-    caption = {
+    attached = {
         "identity": "attached by the identity of each patch, (s, t) = (2v − 1, 1 − 2u)",
         "r": "attached by the surface itself, (s, t) = (x, y)",
     }
-    return Figure((Space("physical", points, layers, spatial),), (caption[texture],))
+    figure = Figure((Space("physical", points, layers, spatial),), (attached[texture],))
+    return with_joins(figure, nets) if edges == "joins" else figure
+
+
+def with_joins(figure: Figure, nets: Array) -> Figure:
+    """The figure with the edges of its patches in the colours of their joins, and a legend."""
+    lines, words = join_lines(nets)
+    (space,) = figure.spaces
+    strip = legend("joins", "", words)
+    return replace(
+        figure, spaces=(strip, replace(space, layers=(*space.layers, *lines), below=True))
+    )
 
 
 def outlines(nets: Array) -> tuple[IsoLines, ...]:
@@ -103,21 +123,18 @@ def outlines(nets: Array) -> tuple[IsoLines, ...]:
     return (IsoLines(nets, u=(0.0, 1.0), v=(0.0, 1.0), color=palette.INK, width=width),)
 
 
-def smoothed(control: Mesh, ratio: float, creases: Array, texture: str, picture: Picture) -> Figure:
+def smoothed(
+    control: Mesh, spline: SurfaceSpline, texture: str, picture: Picture, outline: float
+) -> Figure:
     """The surface spline over the file's polyhedron, with its mesh around it."""
-    ratios = ratios_of(control.topology, ratio, creases)
-    spline = spline_of(control.topology, ratios)
     layers = (
-        *patch_layers(spline, control.vertices, texture, picture),
+        *patch_layers(spline, control.vertices, texture, picture, outline),
         edges_of(control, width=0.4),
-        edge_handles(control, ratios),
+        edge_handles(control, spline.ratios),
         vertex_handles(control, "vertices"),
     )
-    caption = (
-        f"{count_words(spline)}; blend ratio {ratio:.2g}",
-        distortion_words(spline, control.vertices, texture),
-    )
-    return Figure((Space("physical", control.vertices, layers, True),), caption)
+    caption = distortion_words(spline, control.vertices, texture)
+    return Figure((Space("physical", control.vertices, layers, True),), (caption,))
 
 
 @remember
