@@ -17,7 +17,7 @@ from frames import FROM_ABOVE, frames, wavy_patches
 from reparam.bench import Rows, Skipped, interleave
 from reparam.geometry.bernstein import bernstein
 from reparam.geometry.net import Array
-from reparam.gpu.surfaces import triangle_indices
+from reparam.gpu.surfaces import Look, triangle_indices
 from reparam.scenes.layers import Patches
 from reparam.snapshot import Studio
 
@@ -111,7 +111,7 @@ def rows(pairs: int) -> Rows:
         def peer(evaluate: Evaluate = evaluate) -> None:
             vertices[:, :3] = evaluate(net[0, ..., :3] * 1.0).reshape(-1, 3)
             buffer.write(vertices)
-            surfaces.set_common(program, layer, FROM_ABOVE, layer.color)
+            surfaces.set_common(program, layer, FROM_ABOVE, Look(layer.color))
             program.ready()
             mesh.render()
 

@@ -14,7 +14,7 @@ from reparam.bench import Rows, Skipped, interleave
 from reparam.geometry.camera import Camera
 from reparam.geometry.evaluate import evaluate, grid_parameters
 from reparam.geometry.normal import surface_normal
-from reparam.gpu.surfaces import triangle_indices
+from reparam.gpu.surfaces import Look, triangle_indices
 from reparam.scenes.layers import Patches, Picture, Texture
 from reparam.snapshot import Studio
 
@@ -51,7 +51,7 @@ class StaticMesh:
 
     def draw(self, camera: Camera) -> None:
         """As `Surfaces.draw` does, but for the evaluation."""
-        self._surfaces.set_common(self._program, self._layer, camera, self._layer.color)
+        self._surfaces.set_common(self._program, self._layer, camera, Look(self._layer.color))
         self._program.set(level=self._level)
         self._program.ready()
         self._mesh.render()

@@ -34,10 +34,7 @@ class Sparse:
 
     def after(self, first: Sparse) -> Sparse:
         """The map that applies `first` and then this one: the product self first."""
-        counts = (first._starts[1:] - first._starts[:-1])[self.columns]
-        ends = np.cumsum(counts)
-        within = np.arange(ends[-1]) - np.repeat(ends - counts, counts)
-        place = np.repeat(first._starts[self.columns], counts) + within
+        place, counts = first._entries(self.columns)
         return sparse(
             np.repeat(self.rows, counts),
             first.columns[place],
@@ -46,24 +43,33 @@ class Sparse:
         )
 
     def take(self, rows: Indices) -> Sparse:
-        """These rows alone, each once and in increasing order."""
-        kept = np.isin(self.rows, rows)
-        place = np.searchsorted(rows, self.rows[kept])
-        return Sparse(place, self.columns[kept], self.values[kept], (len(rows), self.shape[1]))
+        """These rows alone; applied, they give the same bits as in the whole."""
+        place, counts = self._entries(rows)
+        new = np.repeat(np.arange(len(rows)), counts)
+        return Sparse(new, self.columns[place], self.values[place], (len(rows), self.shape[1]))
 
-    def column(self, index: int) -> tuple[Indices, Array]:
-        """The rows in which a column occurs, and its factors there."""
-        low, high = np.searchsorted(self.columns[self._by_column], [index, index + 1])
-        place = self._by_column[low:high]
-        return self.rows[place], self.values[place]
+    def rows_with(self, columns: Indices) -> Indices:
+        """The rows that depend on any of these columns, each once."""
+        order, starts = self._by_column
+        ranges = [order[starts[column] : starts[column + 1]] for column in columns]
+        return np.unique(self.rows[np.concatenate(ranges)])
+
+    def _entries(self, rows: Indices) -> tuple[Indices, Indices]:
+        """Where the entries of these rows stand, row after row, and how many each has."""
+        counts = (self._starts[1:] - self._starts[:-1])[rows]
+        within = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+        return np.repeat(self._starts[rows], counts) + within, counts
 
     @cached_property
     def _starts(self) -> Indices:
         return np.searchsorted(self.rows, np.arange(self.shape[0] + 1))
 
     @cached_property
-    def _by_column(self) -> Indices:
-        return np.argsort(self.columns, kind="stable")
+    def _by_column(self) -> tuple[Indices, Indices]:
+        """The entries column after column, and where each column begins."""
+        order = np.argsort(self.columns, kind="stable")
+        starts = np.searchsorted(self.columns[order], np.arange(self.shape[1] + 1))
+        return order, starts
 
 
 def sparse(rows: Indices, columns: Indices, values: Array, shape: tuple[int, int]) -> Sparse:

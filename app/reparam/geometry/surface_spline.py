@@ -91,9 +91,21 @@ class SurfaceSpline:
         """All stages as one map: (points of the nets of one degree, vertices)."""
         return chain(self.stages if self.raised is None else (*self.stages, self.raised))
 
+    def points(self, vertices: Array) -> Array:
+        """The points of the nets, (K, 4), over vertices (V, 3)."""
+        return _with_weights(self.stencils @ vertices)
+
+    def points_after(self, points: Array, vertices: Array, moved: Indices) -> Array:
+        """The points again, bit for bit `points(vertices)`, after these vertices alone have moved:
+        only what depends on them is computed."""
+        rows = self.stencils.rows_with(moved)
+        points = points.copy()
+        points[rows, :3] = self.stencils.take(rows) @ vertices
+        return points
+
     def nets(self, vertices: Array) -> Array:
         """The control nets (P, m, m, 4) over vertices (V, 3): one degree, 2 or 3, for all."""
-        return _with_weights(self.stencils @ vertices)[self.index]
+        return self.points(vertices)[self.index]
 
     def own_nets(self, vertices: Array) -> list[Array]:
         """The nets in their own degrees: (3, 3, 4), or (4, 4, 4) at irregular facets."""

@@ -52,6 +52,7 @@ for _array in (NO_CREASES, NONE_MOVED, IDENTITY):
 OF_FACE, OF_EDGE, OF_VERTEX = (palette.rgb(h) for h in ("A9D6F0", "F6DDB0", "8FD0BC"))
 SIDES = {3: "triangles", 5: "pentagons", 6: "hexagons", 7: "heptagons", 8: "octagons"}
 LEAST, MOST = 0.02, 0.98  # ratios that a hand can give
+FEW = 8  # a part of the vertices, so small that the rest need not be computed again
 OUTLINE_POINTS = 8_000  # of all outlines of a body together
 
 built_in = lru_cache(maxsize=None)(lambda name: MESHES[name]())
@@ -85,7 +86,26 @@ def spline_of(t: Topology, ratios: Array) -> SurfaceSpline:
 @remember
 def nets_of(spline: SurfaceSpline, vertices: Array) -> Array:
     """The control nets."""
-    return spline.nets(vertices)
+    return points_of(spline, vertices)[spline.index]
+
+
+_last: list[tuple[SurfaceSpline, Array, Array]] = []  # the points made before, from what
+
+
+def points_of(spline: SurfaceSpline, vertices: Array) -> Array:
+    """The points of the nets; after an edit of few vertices what these touch is made anew."""
+    points = None
+    if _last and _last[0][0] is spline:
+        _, before, points_before = _last[0]
+        moved = np.flatnonzero((before != vertices).any(-1))
+        if len(moved) <= len(vertices) // FEW:
+            points = (
+                spline.points_after(points_before, vertices, moved) if len(moved) else points_before
+            )
+    if points is None:
+        points = spline.points(vertices)
+    _last[:] = [(spline, vertices, points)]
+    return points
 
 
 @remember
