@@ -9,7 +9,7 @@ import pytest
 
 from reparam.cli import main
 
-SPLINE = "degree 3\nknots 0 0 0 0 1 2 2 3 4 4 4 4\n0 0\n1 2\n2 2\n3 0\n4 -1\n5 0\n6 1\n7 3\n"
+SPLINE = "degree 3\nknots 0 0 0 0 1 2.5 2.5 3 4 4 4 4\n0 0\n1 2\n2 2\n3 0\n4 -1\n5 0\n6 1\n7 3\n"
 FIRST = "0,0\n1,1\n2,1\n"
 CURVES = {
     "bend": "x,y,w\n2,1,1\n4,1,1\n5,0,2\n",
@@ -40,13 +40,13 @@ def test_a_spline_has_as_many_derivatives_as_its_knots_leave(
 ) -> None:
     """Cubic: 2 at a knot, 1 at one that stands twice; in the file's own parameters r' = 1."""
     rows = json.loads(asked(capsys, folder / "spline.csv", "--json"))
-    assert [row["at"] for row in rows] == [1.0, 2.0, 3.0]
+    assert [row["at"] for row in rows] == [1.0, 2.5, 3.0]
     assert [row["parametric"] for row in rows] == [2, 1, 2]
     assert [row["order"] for row in rows] == [2, 1, 2]
     assert rows[0]["r"] == pytest.approx([1.0, 0.0], abs=1e-12)
     text = asked(capsys, folder / "spline.csv").splitlines()
     assert text[0].endswith("spline.csv: 3 joints, looked at up to order 5")
-    assert text[4].split()[:4] == ["2", "1", "1", "1"]
+    assert text[4].split()[:4] == ["2.5", "1", "1", "1"]
 
 
 def test_a_closed_curve_joins_its_own_start(

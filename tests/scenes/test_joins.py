@@ -7,6 +7,7 @@ import pytest
 
 from reparam.errors import UsageError
 from reparam.geometry.curve import curve_points
+from reparam.scenes.figures.cusp import pieces
 from reparam.scenes.figures.joins import PRESETS
 from reparam.scenes.layers import Curves, Handles
 from reparam.subject import Subject, open_subject
@@ -78,6 +79,13 @@ def test_cusp(turn: float) -> None:
         180.0: "left: the image is G0; the tangents are opposed: a cusp;",
     }.get(turn, f"left: the image is G0; the direction turns by {turn:g} degrees;")
     assert figure.caption[1] == f"{expected}  right: the image is G5 at least"
+
+
+def test_the_curve_that_turns_comes_from_one_side() -> None:
+    """From (-1, -1) straight on to (-1, 1) at a right angle and to (1, 1) and back."""
+    for degrees, start in ((0.0, (-1, -1)), (90.0, (-1, 1)), (180.0, (1, 1))):
+        for near in (degrees, min(degrees + 1e-9, 180.0), max(degrees - 1e-9, 0.0)):
+            assert pieces(near)[0][0, :2] == pytest.approx(start, abs=1e-8)
 
 
 @pytest.mark.parametrize("u", [0.0, 1.0, 2.0])

@@ -71,6 +71,7 @@ GROUPS: tuple[tuple[str, tuple[Key | Gesture, ...]], ...] = (
         "changing",
         (
             Gesture(("drag a point",), "change the scene; with Shift in steps"),
+            Gesture(("click a point",), "keep an arc or let it go, insert a knot"),
             Key(("Enter",), "type the point's coordinates, or a parameter", "type_value"),
             Key(("Ctrl+Z",), "undo", "undo"),
             Key(("Ctrl+Shift+Z", "Ctrl+Y"), "redo", "redo"),
