@@ -11,7 +11,7 @@ from reparam.errors import UsageError
 from reparam.geometry.evaluate import evaluate, project
 from reparam.geometry.planar_maps import ALIGNED_IDENTITY, DOMAIN, R
 from reparam.scenes.cursor import Cursor, is_cursor, marked, numbers, parse, within
-from reparam.scenes.layers import Dots, Figure, IsoLines, Patches, Space, plane
+from reparam.scenes.layers import Dots, Figure, IsoLines, Patches, Picture, Space, Texture, plane
 from reparam.scenes.linked import can_link, linked
 from reparam.subject import open_subject
 
@@ -139,3 +139,34 @@ def test_numbers_stand_in_columns() -> None:
     assert numbers(-1.0, 0.25) == "−1.0000, \u20070.2500"
     assert numbers(-1e-9) == "\u20070.0000"
     assert numbers(123456.0) == "\u20071.235e+05"
+
+
+def test_layers_of_patches_count_as_one_and_other_spaces_go() -> None:
+    figure = drawn("fig7", "linked=1")
+    assert named(figure) == ["domain", "body"]
+    body = figure.spaces[-1]
+    layers = [layer.net for layer in body.layers if isinstance(layer, Patches)]
+    assert body.map is not None
+    assert len(layers) > 1
+    assert len(body.map) == sum(len(net) for net in layers)
+    assert (body.width, body.height, body.below) == (1.0, 1.0, False)
+    second = project(evaluate(layers[1][2], 0.3, 0.8))
+    there = project(evaluate(body.map[len(layers[0]) + 2], 0.3, 0.8))
+    assert there == pytest.approx(second, abs=1e-14)
+
+
+def test_patches_of_two_degrees_and_one_texture_map_for_all() -> None:
+    texture = Texture(ALIGNED_IDENTITY, Picture())
+    many = Patches(np.stack([DOMAIN, DOMAIN + np.array([2.0, 0.0, 0.0, 0.0])]), texture)
+    one = Patches(R, texture)
+    space = Space("physical", plane(-2, -2, 3, 2), (many, one))
+    domain, plate, body = linked(Figure((space,))).spaces
+    assert body.map is not None
+    assert plate.map is not None
+    assert body.map.shape == (len(plate.map), 3, 3, 4)
+    assert project(evaluate(body.map[1], 0.2, 0.6))[:2] == pytest.approx([2.6, 0.8])
+    for net in plate.map:
+        assert project(evaluate(net, 0.2, 0.6))[:2] == pytest.approx([0.2, 0.6])
+    mixed = linked(Figure((Space("physical", plane(-2, -2, 3, 2), (many, Patches(R))),)))
+    assert named(mixed) == ["domain", "physical"]
+    assert domain.map is DOMAIN

@@ -17,7 +17,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..geometry.evaluate import sample_surface
-from ..geometry.net import bounding_box, control_net
+from ..geometry.net import bounding_box, control_net, raise_degree
 from ..geometry.planar_maps import DOMAIN
 from . import palette
 from .directions import directions
@@ -31,26 +31,47 @@ AROUND = 0.06  # of free space about a map's image
 
 def can_link(figure: Figure) -> bool:
     """Whether the subject has patches."""
-    return _subject_patches(figure) is not None
+    return bool(_subject_patches(figure))
 
 
 def linked(figure: Figure) -> Figure:
-    """The figure with its subject's domain and texture beside it; itself if it has no patches."""
+    """The figure's subject with its domain and texture beside it; itself if it has no patches.
+
+    Layers of patches count as one, in their order; their texture is shown if all have one.
+    """
     patches = _subject_patches(figure)
-    if patches is None:
+    if not patches:
         return figure
     subject = figure.spaces[-1]
+    textures = [layer.texture for layer in patches if layer.texture is not None]
     spaces = [domain_space()]
-    if patches.texture is not None:
-        spaces.append(texture_space(patches.texture))
-    others = [s for s in figure.spaces[:-1] if s.name not in ("physical", *TITLES)]
+    if len(textures) == len(patches):
+        counts = [len(each.net) if each.net.ndim == 4 else 1 for each in patches]
+        net = together([spread(t.net, n) for t, n in zip(textures, counts, strict=True)])
+        spaces.append(texture_space(Texture(net, textures[0].picture)))
     title = "physical (x, y, z)" if subject.spatial else "physical (x, y)"
-    shown = replace(subject, map=patches.net, title=subject.title or title)
-    return replace(figure, spaces=(*others, *spaces, shown))
+    whole = together([layer.net for layer in patches])
+    shown = replace(subject, map=whole, title=subject.title or title,
+                    width=1.0, height=1.0, below=False)  # fmt: skip
+    return replace(figure, spaces=(*spaces, shown))
 
 
-def _subject_patches(figure: Figure) -> Patches | None:
-    return next((layer for layer in figure.spaces[-1].layers if isinstance(layer, Patches)), None)
+def _subject_patches(figure: Figure) -> list[Patches]:
+    return [layer for layer in figure.spaces[-1].layers if isinstance(layer, Patches)]
+
+
+def spread(net: Array, count: int) -> Array:
+    """A net for each of so many patches: one net answers for all."""
+    return net if net.ndim == 4 or count == 1 else np.broadcast_to(net, (count, *net.shape))
+
+
+def together(nets: list[Array]) -> Array:
+    """All patches of some layers as one array of nets, raised to a common degree."""
+    if len(nets) == 1:
+        return nets[0]
+    degrees = [max(net.shape[axis] for net in nets) - 1 for axis in (-3, -2)]
+    raised = [raise_degree(net, degrees[0], degrees[1]) for net in nets]
+    return np.concatenate([net.reshape(-1, *net.shape[-3:]) for net in raised])
 
 
 def domain_space() -> Space:
@@ -88,8 +109,10 @@ def in_plane(net: Array) -> Array:
 
 def iso_lines(net: Array) -> tuple[Layer, ...]:
     """The outline, and thin lines within a single patch: those of many would lie in a heap."""
-    outline = IsoLines(net, u=(0.0, 1.0), v=(0.0, 1.0), color=palette.INK, width=1.2)
-    if net.ndim == 4 and len(net) > 1:
+    count = len(net) if net.ndim == 4 else 1
+    width = min(1.2, 12.0 / count**0.5)  # many would be outlines alone
+    outline = IsoLines(net, u=(0.0, 1.0), v=(0.0, 1.0), color=palette.INK, width=width)
+    if count > 1:
         return (outline,)
     steps = tuple(k / LINES for k in range(1, LINES))
     return (
