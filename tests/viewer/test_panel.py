@@ -134,6 +134,14 @@ def test_a_checkbox_and_its_key_change_the_same_parameter(sheet: Callable[..., S
     assert here.value("texture") == "identity"
 
 
+def test_many_choices_hang_out_as_a_list(sheet: Callable[..., Sheet]) -> None:
+    here = sheet()
+    assert "light##shading" not in here.places
+    here.press("##shading")
+    here.press("zebra")
+    assert here.value("shading") == "zebra"
+
+
 def test_a_slider_goes_where_it_is_pressed_as_one_step_to_undo(sheet: Callable[..., Sheet]) -> None:
     here = sheet()
     here.press("##morph", 0.25)

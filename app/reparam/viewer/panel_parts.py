@@ -16,8 +16,8 @@ from .panel_style import BAD, FAINT, GOOD, HEADING
 from .state import State
 from .verdicts import Verdicts
 
-NAMES = 0.30  # of the width: the column of names
-MOST_BUTTONS = 24  # letters of choices that are all shown at once
+NAMES = 0.30  # of the width: the column of parameters' names
+SCENES = 0.40  # and of scenes'
 LONG_RANGE = 64.0  # ratio of its ends: a whole number's slider goes by powers
 HELD = ("level", "samples")  # costly: set only when the slider is let go
 
@@ -81,8 +81,7 @@ class Parts:
     def _parameters(self, name: str, parameters: Mapping[str, Parameter]) -> None:
         if not parameters or not imgui.begin_table(name, 2):
             return
-        imgui.table_setup_column("name", imgui.TableColumnFlags_.width_stretch.value, NAMES)
-        imgui.table_setup_column("value", imgui.TableColumnFlags_.width_stretch.value, 1 - NAMES)
+        _columns(NAMES)
         for parameter in parameters.values():
             imgui.table_next_row()
             imgui.table_next_column()
@@ -112,7 +111,7 @@ class Parts:
             self._text(parameter, value)
 
     def _choice(self, parameter: Parameter, value: str) -> None:
-        if sum(map(len, parameter.choices)) <= MOST_BUTTONS:
+        if _buttons_width(parameter.choices) <= imgui.get_content_region_avail().x:
             for i, choice in enumerate(parameter.choices):
                 if i:
                     imgui.same_line()
@@ -196,8 +195,10 @@ class Parts:
         imgui.set_next_item_width(-1.0)
         _, self._search = imgui.input_text_with_hint("##search", "search scenes", self._search)
         if imgui.begin_table("scenes", 2):
-            imgui.table_setup_column("name", imgui.TableColumnFlags_.width_stretch.value, NAMES)
-            imgui.table_setup_column("what", imgui.TableColumnFlags_.width_stretch.value, 1 - NAMES)
+            imgui.table_setup_column("name", imgui.TableColumnFlags_.width_stretch.value, SCENES)
+            imgui.table_setup_column(
+                "what", imgui.TableColumnFlags_.width_stretch.value, 1 - SCENES
+            )
             words = self._search.lower().split()
             for name in self._state.pages():
                 title = self._title_of(name)
@@ -229,6 +230,20 @@ class Parts:
     def _title_of(self, name: str) -> str:
         subject = self._state.subject
         return subject.title if name == subject.scene.name else load_scene(name).title
+
+
+def _buttons_width(choices: tuple[str, ...]) -> float:
+    """Of radio buttons in a row."""
+    style, button = imgui.get_style(), imgui.get_frame_height()
+    gaps = style.item_inner_spacing.x * len(choices) + style.item_spacing.x * (len(choices) - 1)
+    words = sum(imgui.calc_text_size(choice).x for choice in choices)
+    return float(words + button * len(choices) + gaps)
+
+
+def _columns(share: float) -> None:
+    """Two columns of a table, the first one with that share of the width."""
+    for name, part in (("left", share), ("right", 1.0 - share)):
+        imgui.table_setup_column(name, imgui.TableColumnFlags_.width_stretch.value, part)
 
 
 def _title(text: str) -> None:
