@@ -14,11 +14,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .facets import regular_facets
 from .mesh import Topology
 from .net import Array
+from .normal import safe_normalize
 from .partials import partials
-from .sparse import Sparse, chain
 from .surface_spline import SurfaceSpline
 
 Indices = NDArray[np.intp]
@@ -32,33 +31,23 @@ def layout_nets(spline: SurfaceSpline, vertices: Array) -> Array:
     """
     charts = _Charts(spline.whole, spline.cut_vertices(vertices))
     keys, places = charts.table(int(spline.face.max()) + 1)
-    nets = _apply(_from_first_cut(spline), spline, keys, places)
+    nets = _apply(spline, keys, places)
     flat = np.zeros((*nets.shape[:-1], 4))
     flat[..., :2], flat[..., 3] = nets, 1.0
     corners = flat[:, [0, -1, -1, 0], [0, 0, -1, -1], :2]
     after = np.roll(corners, -1, 1)
     area = np.abs((corners[..., 0] * after[..., 1] - corners[..., 1] * after[..., 0]).sum() / 2)
-    flat[..., :2] *= (4.0 * len(nets) / area) ** 0.5
+    flat[..., :2] *= (4.0 * len(nets) / area) ** 0.5 if area > 0.0 else 1.0
     return flat
 
 
-def _from_first_cut(spline: SurfaceSpline) -> Sparse:
-    """The spline's stages after the first cut. What even facets ask of their quads is left out: it
-    reaches round the facet, and serves the tangent plane, which a texture map has not."""
-    facets = regular_facets(spline.cuts[-1], outer=False)
-    stages = [*spline.stages[2:-2], facets, spline.stages[-1]]
-    return chain(stages if spline.raised is None else [*stages, spline.raised])
-
-
-def _apply(rest: Sparse, spline: SurfaceSpline, keys: Indices, places: Array) -> Array:
+def _apply(spline: SurfaceSpline, keys: Indices, places: Array) -> Array:
     """The stencils at every coefficient of every patch, each patch in its own face's chart."""
-    points, per_patch = spline.index.reshape(-1), spline.index[0].size
-    starts = np.searchsorted(rest.rows, np.arange(rest.shape[0] + 1))
-    counts = (starts[1:] - starts[:-1])[points]
+    rest, points = spline.from_first_cut, spline.index.reshape(-1)
+    entry, counts = rest.entries(points)
     rows = np.repeat(np.arange(len(points)), counts)
-    within = np.arange(len(rows)) - np.repeat(np.cumsum(counts) - counts, counts)
-    entry = np.repeat(starts[points], counts) + within
-    wanted = spline.face[rows // per_patch] * rest.shape[1] + rest.columns[entry]
+    face = spline.face[rows // spline.index[0].size]
+    wanted = face * rest.shape[1] + rest.columns[entry]
     found = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
     assert (keys[found] == wanted).all(), "a stencil reaches beyond its face's chart"
     columns = [np.bincount(rows, rest.values[entry] * c[found], len(points)) for c in places.T]
@@ -106,11 +95,11 @@ class _Charts:
         local = p[h] - (total(p[h]) / size)[t.face[h]]
         after = p[t.following[h]] - (total(p[h]) / size)[t.face[h]]
         normal = total(np.cross(local, after))
-        normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
+        normal = safe_normalize(normal)  # zero for a face without area, whose chart is a line
         first = t.starts[: len(size)]
         right = p[t.following[first]] - p[first]
         right -= (right * normal).sum(-1, keepdims=True) * normal
-        right /= np.linalg.norm(right, axis=-1, keepdims=True)
+        right = safe_normalize(right)
         up = np.cross(normal, right)
         of = t.face[h]
         return np.stack([(local * right[of]).sum(-1), (local * up[of]).sum(-1)], -1)
@@ -163,8 +152,8 @@ def stretches(nets: Array, maps: Array, level: int = 8) -> tuple[Array, Array]:
     """How a texture map of patches lies on them, at the middles of level x level cells each.
 
     Returns the angles (P, k), degrees, by which the lines s = const and t = const are off a right
-    one, and the areas (P, k) on the surface for one of the texture. `maps` is (m, n, 4), or
-    one for each patch.
+    one, and the areas (P, k) on the surface for one of the texture; NaN where the map has none.
+    `maps` is (m, n, 4), or one for each patch.
     """
     middle = (np.arange(level) + 0.5) / level
     u, v = (grid.ravel() for grid in np.meshgrid(middle, middle, indexing="ij"))
@@ -172,6 +161,7 @@ def stretches(nets: Array, maps: Array, level: int = 8) -> tuple[Array, Array]:
     p_u, p_v = p[1, 0], p[0, 1]
     (s_u, t_u), (s_v, t_v) = (np.moveaxis(d[..., :2], -1, 0) for d in (q[1, 0], q[0, 1]))
     determinant = (s_u * t_v - s_v * t_u)[..., None]
+    determinant = np.where(determinant == 0.0, np.nan, determinant)
     along_s = (p_u * t_v[..., None] - p_v * t_u[..., None]) / determinant
     along_t = (p_v * s_u[..., None] - p_u * s_v[..., None]) / determinant
     cross = np.linalg.norm(np.cross(along_s, along_t), axis=-1)

@@ -34,7 +34,7 @@ class Sparse:
 
     def after(self, first: Sparse) -> Sparse:
         """The map that applies `first` and then this one: the product self first."""
-        place, counts = first._entries(self.columns)
+        place, counts = first.entries(self.columns)
         return sparse(
             np.repeat(self.rows, counts),
             first.columns[place],
@@ -44,7 +44,7 @@ class Sparse:
 
     def take(self, rows: Indices) -> Sparse:
         """These rows alone; applied, they give the same bits as in the whole."""
-        place, counts = self._entries(rows)
+        place, counts = self.entries(rows)
         new = np.repeat(np.arange(len(rows)), counts)
         return Sparse(new, self.columns[place], self.values[place], (len(rows), self.shape[1]))
 
@@ -54,7 +54,7 @@ class Sparse:
         ranges = [order[starts[column] : starts[column + 1]] for column in columns]
         return np.unique(self.rows[np.concatenate(ranges)])
 
-    def _entries(self, rows: Indices) -> tuple[Indices, Indices]:
+    def entries(self, rows: Indices) -> tuple[Indices, Indices]:
         """Where the entries of these rows stand, row after row, and how many each has."""
         counts = (self._starts[1:] - self._starts[:-1])[rows]
         within = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)

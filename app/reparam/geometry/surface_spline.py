@@ -91,6 +91,14 @@ class SurfaceSpline:
         """All stages as one map: (points of the nets of one degree, vertices)."""
         return chain(self.stages if self.raised is None else (*self.stages, self.raised))
 
+    @cached_property
+    def from_first_cut(self) -> Sparse:
+        """The same map from the vertices of the first cut, but without what even facets ask of
+        their quads: that reaches round the facet, and only tangent planes need it."""
+        facets = regular_facets(self.cuts[-1], outer=False)
+        stages = [*self.stages[2:-2], facets, self.stages[-1]]
+        return chain(stages if self.raised is None else [*stages, self.raised])
+
     def points(self, vertices: Array) -> Array:
         """The points of the nets, (K, 4), over vertices (V, 3)."""
         return _with_weights(self.stencils @ vertices)

@@ -53,6 +53,7 @@ OF_FACE, OF_EDGE, OF_VERTEX = (palette.rgb(h) for h in ("A9D6F0", "F6DDB0", "8FD
 SIDES = {3: "triangles", 5: "pentagons", 6: "hexagons", 7: "heptagons", 8: "octagons"}
 LEAST, MOST = 0.02, 0.98  # ratios that a hand can give
 FEW = 8  # a part of the vertices, so small that the rest need not be computed again
+MANY = 512  # patches: from here on fewer samples tell how a texture map lies on them
 OUTLINE_POINTS = 8_000  # of all outlines of a body together
 
 built_in = lru_cache(maxsize=None)(lambda name: MESHES[name]())
@@ -196,12 +197,16 @@ def outlines(index: NDArray[np.intp], nets: Array) -> Array:
 
     `index` (P, m, m) says which points of the spline the nets pick: shared edges pick the same.
     """
-    sides = [index[:, 0], index[:, -1], index[:, :, 0], index[:, :, -1]]
-    curves = [nets[:, 0], nets[:, -1], nets[:, :, 0], nets[:, :, -1]]
-    names = np.concatenate(sides)
-    names = np.where(names[:, :1] > names[:, -1:], names[:, ::-1], names)
-    _, first = np.unique(names, axis=0, return_index=True)
-    return polylines(np.concatenate(curves)[first])
+    sides = np.stack([nets[:, 0], nets[:, -1], nets[:, :, 0], nets[:, :, -1]])
+    return polylines(sides.reshape(-1, *sides.shape[2:])[edges_once(index)])
+
+
+@remember
+def edges_once(index: NDArray[np.intp]) -> NDArray[np.intp]:
+    """One of each two sides that pick the same points: side s of patch p is s P + p."""
+    sides = np.concatenate([index[:, 0], index[:, -1], index[:, :, 0], index[:, :, -1]])
+    forwards = np.where(sides[:, :1] > sides[:, -1:], sides[:, ::-1], sides)
+    return np.unique(forwards, axis=0, return_index=True)[1]
 
 
 def polylines(curves: Array) -> Array:
@@ -259,9 +264,12 @@ def edge_handles(control: Mesh, ratios: Array) -> Handles:
 def distortion(nets: Array, maps: Array) -> tuple[float, float, float, float]:
     """Largest and mean deviation from right angles (degrees); least and largest area, the median
     being 1."""
-    angles, areas = stretches(nets, maps, 4)
-    areas = areas / np.median(areas)
-    return float(angles.max()), float(angles.mean()), float(areas.min()), float(areas.max())
+    angles, areas = stretches(nets, maps, 4 if len(nets) < MANY else 2)
+    typical = float(np.nanmedian(areas))
+    areas = areas / (typical if typical > 0.0 else 1.0)
+    numbers = np.nanmax(angles), np.nanmean(angles), np.nanmin(areas), np.nanmax(areas)
+    most, mean, low, high = (float(number) for number in numbers)
+    return most, mean, low, high
 
 
 def count_words(spline: SurfaceSpline) -> str:

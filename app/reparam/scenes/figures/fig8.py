@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import cos, radians, sin
+from typing import Annotated
 
-from ...geometry.evaluate import sample_surface
+import numpy as np
+
+from ...geometry.mesh import Mesh
 from ...geometry.meshes import MESHES
 from ...geometry.patch_joins import joins
 from ...geometry.surface_spline import surface_spline
 from ..attachments import Checks, attachment
 from ..claims import Claim
-from ..layers import Figure, Space
+from ..layers import Array, Figure, Space
+from ..parameters import Range
 from ..registry import scene
 from ..remember import remember
 from ..splines import (
@@ -36,7 +41,7 @@ from ..splines import (
 @scene(
     "Three handles, one smooth surface",
     figure=8,
-    animates="ratio",
+    animates="turn",
     plates=(("level=8", "shading=kind"), ("level=8", "shading=zebra")),
 )
 def fig8(
@@ -45,15 +50,16 @@ def fig8(
     checks: Checks = 4,
     creases: Creases = NO_CREASES,
     moved: Moved = NONE_MOVED,
+    turn: Annotated[float, Range(0, 360, 15), "degrees about the z-axis"] = 0.0,
 ) -> Figure:
-    control = moved_mesh(built_in("three_handles"), moved)
+    control = turned(moved_mesh(built_in("three_handles"), moved), turn)
     ratios = ratios_of(control.topology, ratio, creases)
     spline = spline_of(control.topology, ratios)
     picture = attachment(checks, "", "repeat", "smooth")
     surface = patch_layers(spline, control.vertices, texture, picture, outline=0.4)
-    handles = (edge_handles(control, ratios), vertex_handles(control))
-    points = sampled(nets_of(spline, control.vertices))
-    body = Space("body", points, (*surface, *handles), True)
+    handles = (edge_handles(control, ratios), vertex_handles(control)) if turn == 0.0 else ()
+    bounds = room_to_turn(nets_of(spline, control.vertices))
+    body = Space("body", bounds, (*surface, *handles), True)
     caption = (
         f"{count_words(spline)}; blend ratio {ratio:.2g}",
         distortion_words(spline, control.vertices, texture),
@@ -61,7 +67,24 @@ def fig8(
     return Figure((body,), caption)
 
 
-sampled = remember(sample_surface)
+def turned(control: Mesh, degrees: float) -> Mesh:
+    """The mesh turned about the z-axis; the mesh itself for 0."""
+    if degrees == 0.0:
+        return control
+    c, s = cos(radians(degrees)), sin(radians(degrees))
+    turn = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
+    return Mesh(control.vertices @ turn, control.topology)
+
+
+@remember
+def room_to_turn(nets: Array) -> Array:
+    """Points (k, 3) around all that a surface sweeps when it turns about the z-axis."""
+    points = nets[..., :3].reshape(-1, 3)
+    radius = np.hypot(points[:, 0], points[:, 1]).max()
+    angle = np.linspace(0.0, 2.0 * np.pi, 48, endpoint=False)
+    rim = np.stack([radius * np.cos(angle), radius * np.sin(angle), 0.0 * angle], -1)
+    heights = points[:, 2].min(), points[:, 2].max()
+    return np.concatenate([rim + np.array([0.0, 0.0, z]) for z in heights])
 
 
 @fig8.claims
