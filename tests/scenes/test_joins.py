@@ -75,10 +75,10 @@ def test_one_point_is_refused() -> None:
 def test_cusp(turn: float) -> None:
     figure = open_subject("cusp").changed("turn", turn).figure()
     expected = {
-        0.0: "left: the image is G5 at least;",
-        180.0: "left: the image is G0; the tangents are opposed: a cusp;",
-    }.get(turn, f"left: the image is G0; the direction turns by {turn:g} degrees;")
-    assert figure.caption[1] == f"{expected}  right: the image is G5 at least"
+        0.0: "first: the image is G5 at least;",
+        180.0: "first: the image is G0; the tangents are opposed: a cusp;",
+    }.get(turn, f"first: the image is G0; the direction turns by {turn:g} degrees;")
+    assert figure.caption[1] == f"{expected}  its sibling: the image is G5 at least"
 
 
 def test_the_curve_that_turns_comes_from_one_side() -> None:

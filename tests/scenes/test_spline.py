@@ -125,7 +125,7 @@ def test_a_click_on_a_knot_inserts_it(weights: tuple[float, ...]) -> None:
         ("knots=[0,0,0,0,2,1,3,3,4,4,4,4]", "knots that do not decrease, found 2, 1 at 4"),
         ("weights=[1,1]", "weights: expected 8 or none, found 2"),
         ("weights=[1,1,1,1,-1,1,1,1]", "a weight of at least 0"),
-        ("points=[]", "knots"),
+        ("points=[]", "points: expected at least two control points, found 0"),
     ],
 )
 def test_refused(words: str, message: str) -> None:

@@ -52,7 +52,7 @@ def cusp(
         hodograph = tuple(velocities(f, g, velocity))
         spaces.append(Space(f"velocity of {name}", EXTENT, hodograph, below=True))
     formula = "x(u) = a (1 − u)², then b (u − 1)²: from either side x′(1) = 0"
-    return Figure(tuple(spaces), (formula, f"left: {told[0]};  right: {told[1]}"))
+    return Figure(tuple(spaces), (formula, f"first: {told[0]};  its sibling: {told[1]}"))
 
 
 def pieces(degrees: float) -> tuple[Array, Array]:

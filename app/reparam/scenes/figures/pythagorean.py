@@ -94,6 +94,8 @@ def other_quintics(ends: Array) -> Iterator[PythagoreanCurve]:
 
 def hermite_data(ends: Array) -> tuple[complex, complex, complex, complex]:
     p0, p1, p4, p5 = (complex(x, y) for x, y in ends)
+    if p0 == p1 or p4 == p5:
+        raise ValueError("ends: expected end derivatives other than 0, found two equal points")
     return p0, p5, 5.0 * (p1 - p0), 5.0 * (p5 - p4)
 
 

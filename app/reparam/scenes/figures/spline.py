@@ -95,6 +95,8 @@ def spline(
 
 def checked_order(points: Array, knots: Array, weights: Array) -> int:
     """The order that these numbers of points and knots make. Raises ValueError."""
+    if len(points) < 2:
+        raise ValueError(f"points: expected at least two control points, found {len(points)}")
     order = len(knots) - len(points)
     if order < 2:
         expected = f"at least {len(points) + 2} knots for {len(points)} control points"
