@@ -20,12 +20,11 @@ out vec2 steps;
 
 void main() {
     Spread seen = spread(position_net, patch_index, position_degree, clip_from_model, half_size);
-    vec3 need = level_coefficients(seen, half_size, tolerance, SEEN);
+    vec3 need = level_coefficients(seen, 1.0, tolerance);
 #ifdef TEXTURED
     Spread sought =
         spread(texture_net, patch_index * texture_stride, texture_degree, mat4(1.0), vec2(1.0));
-    vec2 unit = vec2(pixels_a_unit(seen, sought));
-    need += level_coefficients(sought, unit, tolerance, sought.reach);
+    need += level_coefficients(sought, pixels_a_unit(seen, sought), tolerance);
 #endif
     steps = seen.out_of_view ? vec2(0.0) : balance(min(need, 1e12));
 }

@@ -65,12 +65,13 @@ def measure(studio: Studio, subject: Subject, size: tuple[int, int]) -> Iterator
         evaluators = ("vertex", "tessellation")[: 1 + painter.capabilities.tessellation]
     layers = [layer for layer in panel.space.layers if isinstance(layer, Patches)]
     for number, layer in enumerate(layers, start=1):
-        plan = (
-            painter.surfaces.adaptive.plan(layer, panel.camera, Tolerance(display.tolerance, size))
-            if display.tolerance
-            else uniform_plan(layer, display.level)
-        )
         for evaluator in evaluators:
+            tolerance = Tolerance(display.tolerance, size)
+            plan = (
+                painter.surfaces.adaptive.plan(layer, panel.camera, evaluator, tolerance)
+                if display.tolerance
+                else uniform_plan(layer, display.level)
+            )
             off = deviations(painter, layer, panel.camera, evaluator, plan, size)
             off = off if len(off) else np.zeros(1)
             most = float(np.quantile(off, 1.0 - FORGIVEN))

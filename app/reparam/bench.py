@@ -32,8 +32,8 @@ class Row:
 
     name: str
     ratio: float
-    ours_ms: float
-    other_ms: float
+    ours_ms: float | None = None  # where times are compared
+    other_ms: float | None = None
     settings: dict[str, Any] = field(default_factory=dict)
     goal: float | None = None
     at_least: bool = False
@@ -147,5 +147,7 @@ def line(row: Row | Skipped) -> str:
     if row.goal is not None:
         sign, verdict = ">=" if row.at_least else "<=", "" if row.reached() else "  MISSED"
         goal = f"   goal {sign} {row.goal:g}{verdict}"
-    times = f"ours {row.ours_ms:9.3f} ms   other {row.other_ms:9.3f} ms"
+    times = " " * 37
+    if row.ours_ms is not None:
+        times = f"ours {row.ours_ms:9.3f} ms   other {row.other_ms:9.3f} ms"
     return f"{row.name:46} {row.ratio:8.3f}   {times}{goal}"

@@ -15,7 +15,7 @@ from reparam.geometry.levels import (
     level_coefficients,
     out_of_view,
     pixels_a_unit,
-    second_derivative_bounds,
+    second_derivatives,
 )
 from reparam.geometry.net import Array, control_net, raise_degree
 from reparam.geometry.planar_maps import R
@@ -78,11 +78,12 @@ def test_flat_patches_need_one_step() -> None:
 
 
 def test_second_derivatives_of_r() -> None:
-    """x_uu = -4 V is largest on the edges: 4; x_uv = -4 U is bounded by the net's 8."""
-    uu, uv, vv = second_derivative_bounds(R)
-    assert uu[:2].tolist() == [4.0, 0.0]
-    assert vv[:2].tolist() == [0.0, 4.0]
-    assert uv[:2].tolist() == [4.0, 4.0]
+    """By U = 2u - 1: x_uu = -4 V, which goes from 4 to -4; x_uv = -4 U; y likewise."""
+    uu, uv, vv = second_derivatives(R)
+    assert uu[0, :, 0].tolist() == [4.0, 0.0, -4.0]
+    assert (uu[..., 1:] == 0.0).all()
+    assert vv[:, 0, 1].tolist() == [-4.0, 0.0, 4.0]
+    assert np.abs(uv[..., :2]).max() == 4.0
 
 
 def test_needs_are_met_and_tight() -> None:
@@ -173,4 +174,6 @@ def test_grids_snap_without_spanning_more_than_a_step() -> None:
     assert (fine >= levels).all()
     for edge, axis in enumerate((1, 0, 1, 0)):
         e, n = edges[:, edge], fine[:, axis]
-        assert ((e == n) | (2 * e <= n)).all()
+        span = np.where(e == n, 1.0 / n, 0.5 / e + 1.0 / n)
+        assert (span <= 1.0 / levels[:, axis] + 1e-12).all()
+        assert (n >= e).all()

@@ -49,7 +49,7 @@ def test_every_fragment_is_within_the_tolerance(
     layer, adaptive = Patches(nets), studio.painter.surfaces.adaptive
     found = []
     for camera in views(nets, 2, zoom):
-        plan = adaptive.plan(layer, camera, Tolerance(1.0, SIZE))
+        plan = adaptive.plan(layer, camera, evaluator, Tolerance(1.0, SIZE))
         found.append(deviations(studio.painter, layer, camera, evaluator, plan, SIZE))
     off = np.concatenate(found)
     assert len(off) > 5000
@@ -61,7 +61,7 @@ def test_every_fragment_is_within_the_tolerance(
 def test_too_coarse_a_plan_is_told(studio: Studio, evaluator: str) -> None:
     nets = BODIES["cubic"]
     layer, camera = Patches(nets), views(nets, 1)[0]
-    plan = studio.painter.surfaces.adaptive.plan(layer, camera, Tolerance(20.0, SIZE))
+    plan = studio.painter.surfaces.adaptive.plan(layer, camera, evaluator, Tolerance(20.0, SIZE))
     off = deviations(studio.painter, layer, camera, evaluator, plan, SIZE)
     assert 1.0 < np.quantile(off, 0.99) < 20.0
 
@@ -79,7 +79,7 @@ def test_closed_bodies_show_no_crack(
     for turn in range(10):
         azimuth, elevation, zoom = random.uniform([0.0, -90.0, 1.0], [360.0, 90.0, 9.0])
         camera = frame(points, side, side, View(zoom, (0.0, 0.0), azimuth, elevation), True)
-        plan = painter.surfaces.adaptive.plan(body, camera, tolerance)
+        plan = painter.surfaces.adaptive.plan(body, camera, evaluator, tolerance)
         finest = max(finest, int(plan.edges.max()))
         framebuffer.clear()
         painter.surfaces.draw(body, camera, evaluator, tolerance)
@@ -101,10 +101,11 @@ def test_a_bent_patch_beside_a_flat_one(
     bent = [[(0, 1), (0.9, 1), (1, 1)], [(0, 0), (0.9, 0.7), (1, 0)], [(0, -1), (0.2, -1), (1, -1)]]
     nets = np.stack([raised(flat), control_net(bent)])
     camera = frame(np.array([[-0.9, -0.9, 0.0], [0.9, 0.9, 0.0]]), *texture.size, View(), False)
-    plan = painter.surfaces.adaptive.plan(Patches(nets), camera, Tolerance(0.1, texture.size))
+    tolerance = Tolerance(0.1, texture.size)
+    plan = painter.surfaces.adaptive.plan(Patches(nets), camera, evaluator, tolerance)
     assert plan.inner[0].max() < 4 < 20 < plan.inner[1].max()
     framebuffer.clear()
-    painter.surfaces.draw(Patches(nets), camera, evaluator, Tolerance(0.1, texture.size))
+    painter.surfaces.draw(Patches(nets), camera, evaluator, tolerance)
     assert (counts(texture) == 1.0).all()
 
 
@@ -117,7 +118,7 @@ def test_patches_out_of_view_cost_nothing(studio: Studio) -> None:
     points = sample_surface(nets)
     plans = [
         studio.painter.surfaces.adaptive.plan(
-            Patches(nets), frame(points, *SIZE, View(zoom), False), Tolerance(0.5, SIZE)
+            Patches(nets), frame(points, *SIZE, View(zoom), False), "vertex", Tolerance(0.5, SIZE)
         )
         for zoom in (1.0, 9.0)
     ]

@@ -54,16 +54,10 @@ def test_a_map_adds_its_own(fineness: Fineness, shared: bool) -> None:
     found = fineness.read(layer, camera, SIZE, TOLERANCE)
     seen = clip(nets, camera)
     unit = pixels_a_unit(seen, maps, HALF)
-    reach = np.abs(maps[..., :2] / maps[..., 3:]).max((-1, -2, -3))
     own = np.stack(
         [
-            level_coefficients(m, (float(k), float(k)), TOLERANCE, float(r))
-            for m, k, r in zip(
-                np.broadcast_to(maps, (20, *maps.shape[1:])),
-                unit,
-                np.broadcast_to(reach, 20),
-                strict=True,
-            )
+            level_coefficients(m, (float(k), float(k)), TOLERANCE)
+            for m, k in zip(np.broadcast_to(maps, (20, *maps.shape[1:])), unit, strict=True)
         ]
     )
     expected = balance(level_coefficients(seen, HALF, TOLERANCE) + own)

@@ -21,44 +21,49 @@ from numpy.typing import NDArray
 from .net import Array
 
 FINEST = 4096  # no level above
-SEEN = 1.05  # |x/w| and |y/w| of what is in the viewport, and a little beyond
 TWIST = 0.1  # see `balance`
 
 
-def second_derivative_bounds(nets: Array) -> tuple[Array, Array, Array]:
-    """Bounds (..., c) of |d2/du2|, |d2/dudv| and |d2/dv2| of nets (..., m, n, c), by component."""
+def second_derivatives(nets: Array) -> tuple[Array, Array, Array]:
+    """Control points of d2/du2, d2/dudv and d2/dv2 of nets (..., m, n, c), as they come."""
     m, n = nets.shape[-3] - 1, nets.shape[-2] - 1
     in_u, in_v = np.diff(nets, axis=-3), np.diff(nets, axis=-2)
     return (
-        m * (m - 1) * _largest(np.diff(in_u, axis=-3)),
-        m * n * _largest(np.diff(in_u, axis=-2)),
-        n * (n - 1) * _largest(np.diff(in_v, axis=-2)),
+        m * (m - 1) * np.diff(in_u, axis=-3),
+        m * n * np.diff(in_u, axis=-2),
+        n * (n - 1) * np.diff(in_v, axis=-2),
     )
 
 
-def _largest(differences: Array) -> Array:
-    return np.asarray(np.abs(differences).max((-3, -2), initial=0.0))
-
-
-def level_coefficients(
-    nets: Array, scale: tuple[float, float], tolerance: float, reach: float = SEEN
-) -> Array:
+def level_coefficients(nets: Array, scale: tuple[float, float], tolerance: float) -> Array:
     """(a, b, c) of each patch (..., 3): steps nu x nv are fine enough if
 
         a / nu^2 + 2 b / (nu nv) + c / nv^2 <= 1.
 
     `nets` (..., m, n, 4) in clip coordinates with `scale` the viewport's half width and height,
-    or a texture map with `scale` the pixels of a unit of s and t; `tolerance` in pixels. With the
-    deviations E of x, y and w, x/w is off by at most (E_x + |x/w| E_w) / (w - E_w), and of
-    |x/w| is known that it is at most `reach`: 1 for what is seen. Infinite where w <= 0.
+    or a texture map with `scale` the pixels of a unit of s and t; `tolerance` in pixels. With x
+    measured from the patch's own middle and the deviations E of x, y and w, x/w is off by at most
+    (E_x + |x/w| E_w) / (w - E_w), and |x/w| is at most the patch's half extent. Infinite where
+    w <= 0.
     """
-    bounds = np.stack(second_derivative_bounds(nets), -2)  # (..., 3, 4)
-    w = bounds[..., 3]
-    x, y = (scale[k] * (bounds[..., k] + reach * w) for k in (0, 1))
-    least = nets[..., 3].min((-2, -1))[..., None]
+    least = nets[..., 3].min((-2, -1))
+    safe = np.where(nets[..., 3:] > 0.0, nets[..., 3:], 1.0)
+    places = nets[..., :2] / safe
+    low, high = places.min((-3, -2)), places.max((-3, -2))
+    centred = nets.copy()
+    centred[..., :2] -= ((low + high) / 2.0)[..., None, None, :] * nets[..., 3:]
+    reach = (high - low)[..., None, None, :] / 2.0
+    off, w = [], []
+    for bent in second_derivatives(centred):
+        size = np.abs(bent)
+        along = (size[..., :2] + reach * size[..., 3:]) * np.array(scale)
+        off.append(_longest(along))
+        w.append(size[..., 3].max((-2, -1), initial=0.0))
     with np.errstate(divide="ignore", invalid="ignore"):
-        need = (np.hypot(x, y) + tolerance * w) / (8.0 * tolerance * least)
-    return np.asarray(np.where(least > 0.0, need, np.inf))
+        need = (np.stack(off, -1) + tolerance * np.stack(w, -1)) / (
+            8.0 * tolerance * least[..., None]
+        )
+    return np.asarray(np.where(least[..., None] > 0.0, need, np.inf))
 
 
 def pixels_a_unit(clip: Array, maps: Array, half: tuple[float, float]) -> Array:
@@ -154,13 +159,15 @@ def grid_levels(
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """The same and finer, of `STEPS`: levels (P, 2) of grids that can snap to edges (P, 4).
 
-    A vertex on an edge goes to the nearest of the edge's steps. A triangle there still spans no
-    more than one of them if the grid has as many steps, or at least twice as many.
+    A vertex on an edge goes to the nearest of the edge's steps: a triangle there spans up to half
+    a step of the edge and one of the grid, and may span one of `levels`. With as many steps in
+    both it spans just one.
     """
     edges = STEPS[np.searchsorted(STEPS, edges)]
     along = edges[:, [[1, 3], [0, 2]]]  # patch, direction, side
     fine = STEPS[np.searchsorted(STEPS, np.maximum(levels, along.max(-1)))]
-    for _ in range(2):
-        snaps = (along != fine[..., None]) & (2 * along > fine[..., None])
-        fine = np.where(snaps, 2 * along, fine[..., None]).max(-1)
+    for _ in range(2):  # what is made finer for one side may no longer be the other's
+        snaps = along != fine[..., None]
+        least = np.where(snaps, 1.0 / (1.0 / levels[..., None] - 0.5 / along), 1.0).max(-1)
+        fine = STEPS[np.searchsorted(STEPS, np.maximum(fine, np.ceil(least - 1e-9)))]
     return fine, edges

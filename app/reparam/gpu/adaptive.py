@@ -24,6 +24,10 @@ HARDWARE_LEVEL = 64  # what every OpenGL 4 promises
 FINEST_GRID = 1024  # of the vertex evaluator, which keeps its grids
 SOFTWARE_CHUNK = 64  # llvmpipe's tessellator is quadratic in the patches of one draw
 
+# Where an edge has other steps than the patch, how they are stitched is the driver's: triangles
+# there may span a fifth more than a step. (The vertex evaluator's own stitching spans no more.)
+STITCHING = {"vertex": 1.0, "tessellation": 1.2**2}
+
 Ints = NDArray[np.int64]
 SetCommon = Callable[[Program], None]
 
@@ -77,9 +81,10 @@ class Adaptive:
         """End of a frame."""
         self._edges.sweep()
 
-    def plan(self, layer: Patches, camera: Camera, tolerance: Tolerance) -> Plan:
+    def plan(self, layer: Patches, camera: Camera, evaluator: str, tolerance: Tolerance) -> Plan:
         """The levels of a layer's patches in this view."""
-        steps = self._fineness.read(layer, camera, tolerance.viewport, tolerance.pixels)
+        pixels = tolerance.pixels / STITCHING[evaluator]
+        steps = self._fineness.read(layer, camera, tolerance.viewport, pixels)
         edges = edge_levels(steps, self._edges.get(layer.net, None, lambda: _numbers(layer.net)))
         seen = np.flatnonzero(steps.any(-1))
         return Plan(seen, steps[seen], edges[seen])

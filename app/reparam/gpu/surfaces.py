@@ -122,7 +122,7 @@ class Surfaces:
             self.adaptive.draw(
                 layer,
                 evaluator,
-                self.adaptive.plan(layer, camera, fine),
+                self.adaptive.plan(layer, camera, evaluator, fine),
                 "patch.frag",
                 self._defines(layer, look),
                 lambda program: self.set_common(program, layer, camera, look),
