@@ -13,7 +13,6 @@ in vec4 parameters;
 
 uniform sampler2D net;
 uniform int first_patch;
-uniform int patch_stride;   // 0: the same patch for every instance
 #ifdef GENERIC_DEGREE
 uniform ivec2 degree;
 #else
@@ -26,7 +25,7 @@ out vec3 normal;
 #endif
 
 void main() {
-    int patch_index = first_patch + gl_InstanceID * patch_stride;
+    int patch_index = first_patch + gl_InstanceID;
 #ifdef NORMALS
     normal = surface_normal(net, patch_index, degree, parameters, point);
 #else

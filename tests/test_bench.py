@@ -29,7 +29,7 @@ def fake(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_the_benchmarks_are_found() -> None:
-    assert {"cold_start", "edited", "scale", "static_mesh"} <= set(names())
+    assert {"cold_start", "edited", "eval_mesh", "scale", "static_mesh"} <= set(names())
     assert "frames" not in names()
 
 

@@ -32,16 +32,21 @@ bool is_singular(vec3 normal) {
     return dot(normal, normal) <= SINGULAR_SINE * SINGULAR_SINE;
 }
 
+// The unit normal from the cross product of the tangents at uv; the limit where that vanishes.
+vec3 limit_normal(sampler2D net, int patch_index, ivec2 degree, vec4 uv, vec3 normal) {
+    // A loop and not an `if`: software rasterisers execute an `if` for every vertex.
+    for (float inward = SINGULAR_STEP; is_singular(normal) && inward < 1.0; inward *= SINGULAR_FACTOR) {
+        vec4 inside = mix(uv, vec4(0.5), inward), along_u, along_v;
+        vec4 nearby = evaluate_derivatives(net, patch_index, degree, inside, along_u, along_v);
+        normal = cross_of_tangents(nearby, along_u, along_v);
+    }
+    return dot(normal, normal) > 0.0 ? normalize(normal) : vec3(0.0, 0.0, 1.0);
+}
+
 // The normal; the point comes with it, the same bits as evaluate()'s.
 vec3 surface_normal(sampler2D net, int patch_index, ivec2 degree, vec4 uv, out vec4 point) {
     vec4 along_u, along_v;
     point = evaluate_derivatives(net, patch_index, degree, uv, along_u, along_v);
     vec3 normal = cross_of_tangents(point, along_u, along_v);
-    // A loop and not an `if`: software rasterisers execute an `if` for every vertex.
-    for (float inward = SINGULAR_STEP; is_singular(normal) && inward < 1.0; inward *= SINGULAR_FACTOR) {
-        vec4 inside = mix(uv, vec4(0.5), inward);
-        vec4 nearby = evaluate_derivatives(net, patch_index, degree, inside, along_u, along_v);
-        normal = cross_of_tangents(nearby, along_u, along_v);
-    }
-    return dot(normal, normal) > 0.0 ? normalize(normal) : vec3(0.0, 0.0, 1.0);
+    return limit_normal(net, patch_index, degree, uv, normal);
 }

@@ -15,6 +15,7 @@ from truth import errors, random_nets
 from reparam import assets
 from reparam.assets import read_shaders
 from reparam.errors import GraphicsError
+from reparam.gpu.evaluation import strip_defines
 from reparam.gpu.painter import Painter
 from reparam.gpu.programs import Programs, degree_defines, locate, stage_source
 from reparam.gpu.readback import read_points
@@ -27,6 +28,15 @@ LOOKS: list[dict[str, Any]] = [
     {"TEXTURED": 1, "LIT": 1},
     {"TEXTURED": 1, "MIRRORED": 1},
     {"TEXTURED": 1, "MIRRORED": 1, "LIT": 1},
+]
+RECORDED = [
+    [],
+    ["COLORED"],
+    ["LIT", "POSITIONAL"],
+    ["LIT", "SHINY", "TEXTURED"],
+    ["LIT", "SHINY", "POSITIONAL", "COLORED", "TEXTURED", "PROJECTIVE"],
+    ["TEXTURED"],
+    ["TEXTURED", "PROJECTIVE"],
 ]
 TESSELLATION = ("patch.tess.vert", "patch.tesc", "patch.tese")
 EVALUATE = degree_defines(**{"": (3, 1)}) | {"NORMALS": 1}
@@ -41,7 +51,7 @@ VARIANTS: list[tuple[tuple[str, ...], dict[str, Any]]] = [
     ((*TESSELLATION, "probe.frag"), {"PROBE": 1} | degree_defines(POSITION_=(0, 8))),
     ((*TESSELLATION, "probe.frag"), {"PROBE": 1} | degree_defines(POSITION_=(31, 1))),
     ((*TESSELLATION, "probe.frag"), {"PROBE": 1, "LISTED": 1} | degree_defines(POSITION_=(2, 1))),
-    *((("recorded.vert", "recorded.frag"), look) for look in LOOKS[:4]),
+    *((("recorded.vert", "recorded.frag"), dict.fromkeys(look, 1)) for look in RECORDED),
     *((("adaptive.vert", "patch.frag"), look | LOW | ADAPTIVE) for look in LOOKS),
     (("adaptive.vert", "patch.frag"), LOOKS[3] | HIGH | ADAPTIVE),
     *(((*TESSELLATION, "patch.frag"), look | LOW | ADAPTIVE) for look in LOOKS),
@@ -49,6 +59,10 @@ VARIANTS: list[tuple[tuple[str, ...], dict[str, Any]]] = [
     ((*TESSELLATION, "located.frag"), LOCATED),
     (("levels.vert",), {}),
     (("levels.vert",), {"TEXTURED": 1}),
+    *(
+        (("strip.vert",), degree_defines(**{"": (3, 1)}) | strip_defines(5, n))
+        for n in (True, False)
+    ),
     (("evaluate.vert",), degree_defines(**{"": (0, 0)})),
     (("evaluate.vert",), EVALUATE),
     (("evaluate.vert",), degree_defines(**{"": (9, 1)})),
@@ -132,7 +146,7 @@ def test_no_shader_is_left_out() -> None:
         ("lib/normal.glsl", 7, "vec3 safe_normalize(vec3 v) { undeclared = v;"),
         ("lib/bernstein.glsl", 17, "    basis[0] = vec2(1.0);"),
         ("lib/net.glsl", 6, "    return )"),
-        ("evaluate.vert", 29, "    int patch_index = first_patch + missing(gl_InstanceID);"),
+        ("evaluate.vert", 28, "    int patch_index = first_patch + missing(gl_InstanceID);"),
     ],
 )
 def test_an_error_names_file_and_line(
@@ -223,7 +237,7 @@ def test_a_uniform_that_the_compiler_dropped_is_passed_over(studio: Studio) -> N
     programs = Programs(studio.ctx)
     low, high = (degree_defines(**{"": (degree, degree)}) for degree in (0, 9))
     program = programs.get("evaluate.vert", defines=low, varyings=("point",))
-    program.set(net=0, first_patch=0, patch_stride=1).ready()
+    program.set(net=0, first_patch=0).ready()
     generic = programs.get("evaluate.vert", defines=high, varyings=("point",))
-    with pytest.raises(AssertionError, match="never set: degree, first_patch, net, patch_stride"):
+    with pytest.raises(AssertionError, match="never set: degree, first_patch, net"):
         generic.ready()

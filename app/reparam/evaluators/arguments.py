@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
+import math
+import struct
+
 import numpy as np
 
 from .errors import InvalidValue
 
 Quad = tuple[float, float, float, float]
 
+_FLOAT = struct.Struct("f")
+
 
 def single(call: str, name: str, value: object) -> float:
     """A number as OpenGL's float has it. Raises InvalidValue where that is not finite."""
     try:
-        with np.errstate(over="ignore"):
-            number = float(np.float32(value))  # type: ignore[arg-type]
-    except (TypeError, ValueError):
-        number = np.nan
-    if not np.isfinite(number):
+        (number,) = _FLOAT.unpack(_FLOAT.pack(value))  # several times as fast as numpy
+    except (TypeError, ValueError, OverflowError, struct.error):
+        number = math.nan
+    if not math.isfinite(number):
         raise InvalidValue(f"{call}: {name}: expected a finite number, found {value!r}")
-    return number
+    return float(number)
 
 
 def interval(call: str, letter: str, start: object, end: object) -> tuple[float, float]:

@@ -10,7 +10,7 @@ v1   +--+--+--+  i
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -74,7 +74,7 @@ class Grid:
     u: Walk
     v: Walk
 
-    @property
+    @cached_property
     def shape(self) -> tuple[int, int]:
         """Points in u and in v."""
         return self.u.count, self.v.count
@@ -86,6 +86,12 @@ class Grid:
         return (u.end < u.start) != (v.end < v.start)
 
 
+@lru_cache(maxsize=256)
+def grid_of(u: Axis, i1: int, i2: int, v: Axis, j1: int, j2: int) -> Grid:
+    """The same object for the same grid: it is told apart quickly."""
+    return Grid(Walk(u, i1, i2), Walk(v, j1, j2))
+
+
 @lru_cache(maxsize=64)
 def grid_points(grid: Grid) -> Array:
     """(u, v) of all points, u slowest: shape (k, 2). The same array for the same grid."""
@@ -94,9 +100,16 @@ def grid_points(grid: Grid) -> Array:
 
 
 @lru_cache(maxsize=256)
-def grid_pairs(grid: Grid, domain: Quad) -> Array:
-    """What the evaluator takes, for maps of one domain: as `pairs`, the same array each time."""
-    return _constant(pairs(grid_points(grid), domain))
+def grid_pairs(grid: Grid, domain: Quad, row: int | None = None) -> Array:
+    """What the evaluator takes, for maps of one domain: as `pairs`, the same array each time.
+
+    `row`: points in v, the last one again where that is more than the grid has.
+    """
+    points = grid_points(grid)
+    if row is not None:
+        last = grid.shape[1] - 1
+        points = points.reshape(*grid.shape, 2)[:, np.minimum(np.arange(row), last)].reshape(-1, 2)
+    return _constant(pairs(points, domain))
 
 
 def pairs(parameters: Array, domain: Quad) -> Array:
@@ -107,13 +120,18 @@ def pairs(parameters: Array, domain: Quad) -> Array:
 
 
 @lru_cache(maxsize=64)
-def mesh_indices(shape: tuple[int, int], mode: int, turned: bool = False) -> Indices:
+def mesh_indices(
+    shape: tuple[int, int], mode: int, turned: bool = False, row: int | None = None
+) -> Indices:
     """The points (p, 1), lines (p, 2) or triangles (p, 3) of a mesh, in OpenGL's order.
 
     The triangles wind counter-clockwise in (u,v), as the normal d/du x d/dv has it. (Vertices
-    in the order of the specification wind clockwise, against GL_AUTO_NORMAL.)
+    in the order of the specification wind clockwise, against GL_AUTO_NORMAL.) `row` is how many
+    points in v are stored, if more than the shape has.
     """
-    number = np.arange(shape[0] * shape[1], dtype=np.int32).reshape(shape).T  # [j, i]
+    stored = shape[1] if row is None else row
+    number = np.arange(shape[0] * stored, dtype=np.int32).reshape(shape[0], stored)
+    number = number[:, : shape[1]].T  # [j, i]
     if mode == GL_POINT:
         return number.reshape(-1, 1)
     if mode == GL_LINE:

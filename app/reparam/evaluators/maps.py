@@ -74,9 +74,9 @@ class Map:
     @property
     def shape(self) -> tuple[Target, tuple[int, ...], Quad]:
         """Maps of equal shape can be evaluated in one go."""
-        return self.target, self.points.shape, self.rising
+        return self.target, self.points.shape, self.domain
 
-    @cached_property
+    @property
     def rising(self) -> Quad:
         """The domain with both intervals rising, as `net` has it."""
         u1, u2, v1, v2 = self.domain
@@ -84,18 +84,23 @@ class Map:
 
     @cached_property
     def net(self) -> Array:
-        """The homogeneous net (uorder, vorder, 4) over the domain `rising`.
+        """The homogeneous net (uorder, vorder, 4) over the domain `rising`."""
+        return homogeneous(self, self.points)
 
-        A domain that runs backwards is the same surface with its control points reversed; so
-        derivatives, and with them the automatic normal, have the sign of d/du and d/dv as the
-        specification wants.
-        """
-        net = np.empty((*self.points.shape[:2], 4))
-        net[...] = FILL[self.target.attribute]
-        net[..., : self.target.components] = self.points
-        along_u = 1 if self.domain[0] < self.domain[1] else -1
-        along_v = 1 if self.domain[2] < self.domain[3] else -1
-        return net[::along_u, ::along_v]
+
+def homogeneous(shape: Map, points: Array) -> Array:
+    """Nets (..., uorder, vorder, 4) over the domain `rising`, of maps shaped like that one.
+
+    A domain that runs backwards is the same surface with its control points reversed; so
+    derivatives, and with them the automatic normal, have the sign of d/du and d/dv as the
+    specification wants.
+    """
+    net = np.empty((*points.shape[:-1], 4))
+    net[...] = FILL[shape.target.attribute]
+    net[..., : shape.target.components] = points
+    along_u = 1 if shape.domain[0] < shape.domain[1] else -1
+    along_v = 1 if shape.domain[2] < shape.domain[3] else -1
+    return net[..., ::along_u, ::along_v, :]
 
 
 def initial_map(target: Target) -> Map:

@@ -19,13 +19,12 @@ from . import constants as k
 from .arguments import Quad, integer, numbers, padded, single
 from .constants import PRIMITIVES, name_of
 from .errors import InvalidEnum, InvalidValue
-from .grids import Axis, Grid, Walk
+from .grids import Axis, Grid, Walk, grid_of
 from .maps import FILL, Array, Attribute
 from .recording import HAVE_CURRENT, Collection, Mesh, Recording
 from .state import State, Vertices
 
 MOST_POINTS = 1 << 26  # of one mesh
-ONE_POINT = Walk(Axis(1, 0.0, 1.0), 0, 0)  # a curve's grid in v
 
 
 class Recorder(State):
@@ -53,9 +52,8 @@ class Recorder(State):
         for another mode, InvalidOperation inside glBegin/glEnd.
         """
         self._mesh_mode("glEvalMesh1", mode, (k.GL_POINT, k.GL_LINE))
-        self._record_mesh(
-            1, mode, (_walk("glEvalMesh1", self._grids[1][0], i1=i1, i2=i2), ONE_POINT)
-        )
+        first, last = integer("glEvalMesh1", "i1", i1), integer("glEvalMesh1", "i2", i2)
+        self._record_mesh(1, mode, grid_of(*self._grids[1], first, last, Axis(), 0, 0))
 
     def glEvalMesh2(self, mode: int, i1: int, i2: int, j1: int, j2: int) -> None:
         """Record points (i1..i2, j1..j2) of the grid as GL_POINT, GL_LINE or GL_FILL.
@@ -64,8 +62,9 @@ class Recorder(State):
         """
         self._mesh_mode("glEvalMesh2", mode, (k.GL_POINT, k.GL_LINE, k.GL_FILL))
         u, v = self._grids[2]
-        walks = (_walk("glEvalMesh2", u, i1=i1, i2=i2), _walk("glEvalMesh2", v, j1=j1, j2=j2))
-        self._record_mesh(2, mode, walks)
+        along_u = (integer("glEvalMesh2", "i1", i1), integer("glEvalMesh2", "i2", i2))
+        along_v = (integer("glEvalMesh2", "j1", j1), integer("glEvalMesh2", "j2", j2))
+        self._record_mesh(2, mode, grid_of(u, *along_u, v, *along_v))
 
     def _mesh_mode(self, call: str, mode: int, allowed: tuple[int, ...]) -> None:
         self._outside(call)
@@ -73,8 +72,8 @@ class Recorder(State):
             expected = " or ".join(name_of(one) for one in allowed)
             raise InvalidEnum(f"{call}: mode: expected {expected}, found {name_of(mode)}")
 
-    def _record_mesh(self, dimension: int, mode: int, walks: tuple[Walk, Walk]) -> None:
-        maps, grid = self._fed(dimension), Grid(*walks)
+    def _record_mesh(self, dimension: int, mode: int, grid: Grid) -> None:
+        maps = self._fed(dimension)
         if grid.shape[0] * grid.shape[1] > MOST_POINTS:
             raise InvalidValue(
                 f"glEvalMesh{dimension}: expected at most {MOST_POINTS} points, "
@@ -132,13 +131,13 @@ class Recorder(State):
 
     def glEvalPoint1(self, i: int) -> None:
         """glEvalCoord1 at point i of the grid: the same bits as glEvalMesh1 has there."""
-        walk = _walk("glEvalPoint1", self._grids[1][0], i=i)
+        walk = _walk("glEvalPoint1", self._grids[1][0], "i", i)
         self._evaluate("glEvalPoint1", 1, float(walk.values()[0]), 0.0)
 
     def glEvalPoint2(self, i: int, j: int) -> None:
         """glEvalCoord2 at point (i,j) of the grid."""
         u, v = self._grids[2]
-        at = (_walk("glEvalPoint2", u, i=i), _walk("glEvalPoint2", v, j=j))
+        at = (_walk("glEvalPoint2", u, "i", i), _walk("glEvalPoint2", v, "j", j))
         self._evaluate("glEvalPoint2", 2, *(float(walk.values()[0]) for walk in at))
 
     def _evaluate(self, call: str, dimension: int, u: float, v: float) -> None:
@@ -168,6 +167,6 @@ class Recorder(State):
     glEvalCoord1dv, glEvalCoord2dv = glEvalCoord1fv, glEvalCoord2fv
 
 
-def _walk(call: str, axis: Axis, **indices: object) -> Walk:
-    found = [integer(call, name, index) for name, index in indices.items()]
-    return Walk(axis, found[0], found[-1])
+def _walk(call: str, axis: Axis, name: str, index: object) -> Walk:
+    number = integer(call, name, index)
+    return Walk(axis, number, number)

@@ -55,6 +55,7 @@ class State:
         self._maps: dict[int, Map] = {t: initial_map(target) for t, target in TARGETS.items()}
         self._enabled: frozenset[int] = frozenset()
         self._feeding: dict[int, Maps] = {}
+        self._winners: dict[int, list[int]] = {}
         self._grids: dict[int, tuple[Axis, ...]] = {1: (Axis(),), 2: (Axis(), Axis())}
         self._current = Current()
         self._unit = 0
@@ -146,13 +147,11 @@ class State:
 
     def glEnable(self, cap: int) -> None:
         """Turn a map target or GL_AUTO_NORMAL on. Raises InvalidEnum for what is not ours."""
-        self._enabled |= {self._capability("glEnable", cap)}
-        self._feeding.clear()
+        self._enable(self._enabled | {self._capability("glEnable", cap)})
 
     def glDisable(self, cap: int) -> None:
         """Turn it off."""
-        self._enabled -= {self._capability("glDisable", cap)}
-        self._feeding.clear()
+        self._enable(self._enabled - {self._capability("glDisable", cap)})
 
     def glIsEnabled(self, cap: int) -> bool:
         """Whether it is on."""
@@ -170,15 +169,27 @@ class State:
     def _fed(self, dimension: int) -> Maps:
         """The maps in force; of those for one attribute TARGETS has the winner first."""
         if dimension not in self._feeding:
+            if dimension not in self._winners:
+                self._winners[dimension] = self._win(dimension)
             auto = dimension == 2 and k.GL_AUTO_NORMAL in self._enabled
-            feeds: dict[Attribute, Map] = {}
-            for number, target in TARGETS.items():
-                if target.dimension == dimension and number in self._enabled:
-                    feeds.setdefault(target.attribute, self._maps[number])
-            if auto:
-                feeds.pop("normal", None)
-            self._feeding[dimension] = Maps(tuple(feeds.values()), auto)
+            feeds = tuple(self._maps[number] for number in self._winners[dimension])
+            self._feeding[dimension] = Maps(feeds, auto)
         return self._feeding[dimension]
+
+    def _win(self, dimension: int) -> list[int]:
+        """The enabled targets that feed something."""
+        found: dict[Attribute, int] = {}
+        for number, target in TARGETS.items():
+            if target.dimension == dimension and number in self._enabled:
+                found.setdefault(target.attribute, number)
+        if dimension == 2 and k.GL_AUTO_NORMAL in self._enabled:
+            found.pop("normal", None)
+        return list(found.values())
+
+    def _enable(self, enabled: frozenset[int]) -> None:
+        self._enabled = enabled
+        self._feeding.clear()
+        self._winners.clear()
 
     # Grids ------------------------------------------------------------------------------------
 
@@ -256,8 +267,7 @@ class State:
             raise StackUnderflow("glPopAttrib: expected a glPushAttrib before it, found none")
         mask, enabled, grids, current = self._stack.pop()
         if mask & (k.GL_EVAL_BIT | k.GL_ENABLE_BIT):
-            self._enabled = enabled
-            self._feeding.clear()
+            self._enable(enabled)
         if mask & k.GL_EVAL_BIT:
             self._grids = grids
         if mask & k.GL_CURRENT_BIT:

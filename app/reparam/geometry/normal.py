@@ -54,7 +54,11 @@ def surface_normal(net: Array, u: ArrayLike, v: ArrayLike) -> Array:
     (all points collinear), any unit vector, never NaN.
     """
     u, v = np.asarray(u, dtype=np.float64), np.asarray(v, dtype=np.float64)
-    normal = cross_of_tangents(net, u, v)
+    return limit_normal(net, u, v, cross_of_tangents(net, u, v))
+
+
+def limit_normal(net: Array, u: Array, v: Array, normal: Array) -> Array:
+    """The unit normals from the cross products of the tangents; limits where those vanish."""
     inward = SINGULAR_STEP
     while inward < 1.0:
         singular = np.linalg.norm(normal, axis=-1, keepdims=True) <= SINGULAR_SINE

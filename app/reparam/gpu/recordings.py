@@ -11,9 +11,10 @@ import moderngl
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..evaluators.arguments import Quad
 from ..evaluators.constants import GL_POINTS, GL_TRIANGLES
 from ..evaluators.errors import InvalidOperation
-from ..evaluators.grids import Indices, chained, primitive_indices
+from ..evaluators.grids import Indices, chained, grid_pairs, mesh_indices, primitive_indices
 from ..evaluators.light import Light
 from ..evaluators.maps import Array, Attribute
 from ..evaluators.recording import HAVE_CURRENT, Batch, Collection, Recording
@@ -39,19 +40,28 @@ ATTRIBUTES: dict[str, Attribute] = {  # names in a user's program; `in_` may sta
 }  # fmt: skip
 
 
+@dataclass(frozen=True, eq=False)
+class Shared:
+    """Indices that many drawables use."""
+
+    buffer: moderngl.Buffer
+
+
 @dataclass(frozen=True)
 class Drawable:
-    """A batch or a collection on the GPU: each attribute's buffer, its format and its number of
-    floats, and the primitives."""
+    """A batch or a collection on the GPU: buffers and formats of what differs from vertex to
+    vertex, the values of what does not, and the primitives."""
 
     streams: dict[Attribute, tuple[moderngl.Buffer, str]]
-    indices: moderngl.Buffer
+    constants: dict[Attribute, Quad]
+    indices: Shared
     mode: int
     count: int
+    projective: bool  # texture coordinates have a fourth one
     owned: tuple[moderngl.Buffer, ...]
 
     def release(self) -> None:
-        """Give the memory back."""
+        """Give the memory back; of the indices when nobody uses them any more."""
         for buffer in self.owned:
             buffer.release()
 
@@ -64,26 +74,20 @@ class Recordings:
         self._ctx = painter.ctx
         self._kept: weakref.WeakKeyDictionary[Recording, list[Drawable]]
         self._kept = weakref.WeakKeyDictionary()
+        self._indices: weakref.WeakValueDictionary[Hashable, Shared]
+        self._indices = weakref.WeakValueDictionary()
         self._dead: list[list[Drawable]] = []  # of recordings that are no more
-        self._indices: dict[object, moderngl.Buffer] = {}
+        self._lost: list[moderngl.Buffer] = []  # indices that nobody uses any more
 
-    def draw(
-        self, recording: Recording, program: moderngl.Program, modes: Sequence[int] | None = None
-    ) -> None:
+    def draw(self, recording: Recording, program: moderngl.Program) -> None:
         """Draw into the current framebuffer with a program whose vertex attributes are called
         position, normal, color, texcoord, index (or in_position ...), those that it wants.
 
-        `modes` are the primitives to be drawn, None for all. What was evaluated is kept as long
-        as the recording is. Raises InvalidOperation for a program with other attributes.
+        What was evaluated is kept as long as the recording is. Raises InvalidOperation for a
+        program with other attributes.
         """
-        names = attributes_of(program)
         for drawable in self._drawables(recording):
-            if modes is not None and drawable.mode not in modes:
-                continue
-            content = [(*drawable.streams[attribute], name) for name, attribute in names.items()]
-            vertices = self._ctx.vertex_array(program, content, drawable.indices)
-            vertices.render(drawable.mode, drawable.count)
-            vertices.release()
+            self._render(drawable, program)
 
     def draw_built_in(
         self,
@@ -96,19 +100,42 @@ class Recordings:
     ) -> None:
         """The same with recorded.vert and recorded.frag, in the place of fixed function.
 
-        The matrices (4, 4) are for column vectors. A texture is bound to unit 0.
+        The matrices (4, 4) are for column vectors. A texture is bound to unit 0. `modes` are the
+        primitives to be drawn, None for all.
         """
-        defines = ({"LIT": 1} if light else {}) | ({"TEXTURED": 1} if texture else {})
-        program = self._painter.programs.get("recorded.vert", "recorded.frag", defines=defines)
-        program.set(projection=_column_major(projection), modelview=_column_major(modelview))
-        if light is not None:
-            inverse = np.asarray(np.linalg.pinv(modelview[:3, :3]), np.float64)
-            program.set(normal_matrix=_column_major(inverse.T))
-            _set_light(program, light)
         if texture is not None:
             texture.use(TEXTURE_UNIT)
-            program.set(image=TEXTURE_UNIT)
-        self.draw(recording, program.ready(), modes)
+        for drawable in self._drawables(recording):
+            if modes is not None and drawable.mode not in modes:
+                continue
+            defines = look_of(drawable, light, texture is not None)
+            program = self._painter.programs.get("recorded.vert", "recorded.frag", defines=defines)
+            program.set(projection=_column_major(projection), modelview=_column_major(modelview))
+            if "COLORED" not in defines:
+                program.set(vertex_color=drawable.constants["color"])
+            if light is not None:
+                inverse = np.asarray(np.linalg.pinv(modelview[:3, :3]), np.float64)
+                program.set(normal_matrix=_column_major(inverse.T))
+                _set_light(program, light)
+            if texture is not None:
+                program.set(image=TEXTURE_UNIT)
+            self._render(drawable, program.ready())
+
+    def _render(self, drawable: Drawable, program: moderngl.Program) -> None:
+        content: list[tuple[moderngl.Buffer, str, str]] = []
+        made = []
+        for name, attribute in attributes_of(program).items():
+            if attribute in drawable.streams:
+                content.append((*drawable.streams[attribute], name))
+            else:
+                value = drawable.constants[attribute][: SIZES[attribute]]
+                made.append(self._ctx.buffer(np.array(value, np.float32).tobytes()))
+                content.append((made[-1], f"{len(value)}f /r", name))
+        vertices = self._ctx.vertex_array(program, content, drawable.indices.buffer)
+        vertices.render(drawable.mode, drawable.count)
+        vertices.release()
+        for buffer in made:
+            buffer.release()
 
     def draw_layer(self, layer: Recorded, camera: Camera, unit: float) -> None:
         """A layer of a figure: triangles by the built-in program, lines and points as strokes."""
@@ -177,13 +204,16 @@ class Recordings:
 
     def _drawables(self, recording: Recording) -> list[Drawable]:
         """What was evaluated for a recording, kept as long as it is."""
-        for dead in self._dead:
-            _release(dead)
-        self._dead.clear()
         if recording not in self._kept:
             self._kept[recording] = made = [self._upload(item) for item in recording.batches]
             weakref.finalize(recording, self._dead.append, made).atexit = False
             self._painter.evaluation.sweep()
+        for dead in self._dead:
+            _release(dead)
+        self._dead.clear()
+        for buffer in self._lost:
+            buffer.release()
+        self._lost.clear()
         return self._kept[recording]
 
     def _upload(self, item: Batch | Collection) -> Drawable:
@@ -191,35 +221,48 @@ class Recordings:
 
     def _evaluate(self, batch: Batch) -> Drawable:
         """All maps of all meshes, each into a buffer of its own that never leaves the GPU."""
-        patches = range(len(batch.meshes))
+        evaluation, grid, patches = self._painter.evaluation, batch.first.grid, len(batch.meshes)
+        auto = batch.first.maps.auto_normal
+        row = evaluation.strip_row(grid.shape[1], patches, grid.shape[0], auto)
         owned: list[moderngl.Buffer] = []
         streams: dict[Attribute, tuple[moderngl.Buffer, str]] = {}
         for attribute, feed in batch.feeds.items():
-            normals = attribute == "vertex" and batch.first.maps.auto_normal
-            buffer = self._painter.evaluation.run(feed.net, feed.pairs, patches, normals=normals)
+            normals = auto and attribute == "vertex"
+            where = grid_pairs(grid, feed.domain, row)
+            shape = (grid.shape[0], row)
+            buffer = evaluation.run_grid(feed.net, where, shape, range(patches), normals=normals)
             owned.append(buffer)
             streams[attribute] = (buffer, layout(attribute, feed.components, normals))
             if normals:
                 streams["normal"] = (buffer, "16x 3f")
-        for attribute in HAVE_CURRENT:
-            if attribute not in streams:
-                value = np.array(batch.first.current.value(attribute), np.float32)
-                constant = self._ctx.buffer(value.tobytes())
-                owned.append(constant)
-                size = SIZES[attribute]
-                streams[attribute] = (constant, f"{size}f {16 - 4 * size}x/r".replace(" 0x", ""))
-        indices = self._mesh_indices(batch)
-        count = len(batch.meshes) * batch.indices.size
-        return Drawable(streams, indices, MODES[batch.indices.shape[1]], count, tuple(owned))
+        current = batch.first.current
+        return Drawable(
+            streams,
+            {a: current.value(a) for a in HAVE_CURRENT if a not in streams},
+            self._mesh_indices(batch, row),
+            MODES[batch.indices.shape[1]],
+            patches * batch.indices.size,
+            "texcoord" in batch.feeds and batch.feeds["texcoord"].components == 4,
+            tuple(owned),
+        )
 
-    def _mesh_indices(self, batch: Batch) -> moderngl.Buffer:
+    def _mesh_indices(self, batch: Batch, row: int) -> Shared:
         grid, copies = batch.first.grid, 1 << (len(batch.meshes) - 1).bit_length()
-        key = (grid.shape, batch.first.mode, grid.turned, copies)
-        if key not in self._indices:
-            vertices = grid.shape[0] * grid.shape[1]
-            first = np.arange(copies, dtype=np.int32)[:, None, None] * vertices
-            self._indices[key] = self._ctx.buffer((first + batch.indices).tobytes())
-        return self._indices[key]
+        key = (grid.shape, batch.first.mode, grid.turned, row, copies)
+        found = self._indices.get(key)
+        if found is None:
+            first = np.arange(copies, dtype=np.int32)[:, None, None] * (grid.shape[0] * row)
+            found = self._shared(
+                first + mesh_indices(grid.shape, batch.first.mode, grid.turned, row)
+            )
+            self._indices[key] = found
+        return found
+
+    def _shared(self, indices: NDArray[np.int32]) -> Shared:
+        buffer = self._ctx.buffer(indices.astype(np.int32).tobytes())
+        shared = Shared(buffer)
+        weakref.finalize(shared, self._lost.append, buffer).atexit = False
+        return shared
 
     def _compose(self, collection: Collection) -> Drawable:
         """Evaluated and plain vertices in one buffer."""
@@ -240,9 +283,10 @@ class Recordings:
             parts = (f"{4 * before}x" * bool(before), f"{size}f", f"{4 * after}x" * bool(after))
             streams[attribute] = (buffer, " ".join(part for part in parts if part))
             before += size
-        indices = self._ctx.buffer(found.primitives.astype(np.int32).tobytes())
-        mode = MODES[found.primitives.shape[1]]
-        return Drawable(streams, indices, mode, found.primitives.size, (buffer, indices))
+        mode, count = MODES[found.primitives.shape[1]], found.primitives.size
+        projective = bool(np.any(found.texcoords[:, 3] != 1.0))
+        indices = self._shared(found.primitives)
+        return Drawable(streams, {}, indices, mode, count, projective, (buffer,))
 
 
 def _as_segments(indices: Indices) -> Indices:
@@ -273,17 +317,31 @@ def attributes_of(program: moderngl.Program) -> dict[str, Attribute]:
     return found
 
 
+def look_of(drawable: Drawable, light: Light | None, textured: bool) -> dict[str, int]:
+    """What recorded.vert and recorded.frag are to be able to do."""
+    wanted = {
+        "COLORED": "color" in drawable.streams,
+        "LIT": light is not None,
+        "POSITIONAL": light is not None and light.position[3] != 0.0,
+        "SHINY": light is not None and any(np.multiply(light.specular, light.material_specular)),
+        "TEXTURED": textured,
+        "PROJECTIVE": textured and drawable.projective,
+    }
+    return {name: 1 for name, on in wanted.items() if on}
+
+
 def _set_light(program: Program, light: Light) -> None:
     program.set(
         light_position=light.position,
         light_ambient=tuple(np.add(light.ambient, light.model_ambient)),
         light_diffuse=light.diffuse,
-        specular=tuple(np.multiply(light.specular, light.material_specular)),
         material_ambient=light.material_ambient,
         material_diffuse=light.material_diffuse,
-        shininess=light.shininess,
         color_material=light.color_material,
     )
+    if "SHINY" in program.defines:
+        specular = tuple(np.multiply(light.specular, light.material_specular))
+        program.set(specular=specular, shininess=light.shininess)
 
 
 def _column_major(matrix: Array) -> bytes:
