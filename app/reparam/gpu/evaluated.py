@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+import moderngl
 import numpy as np
 
 from ..evaluators.grids import Indices, grid_points, pairs, primitive_indices
@@ -34,11 +35,12 @@ def read_recording(
     context has not that one.
     """
     found: list[Evaluated] = []
-    for item in recording.batches:
-        if isinstance(item, Batch):
-            found.extend(read_batch(painter, item, evaluator or "vertex"))
-        else:
-            found.append(read_collection(painter, item, evaluator or "vertex"))
+    with painter.ctx.scope(painter.nowhere, moderngl.NOTHING):
+        for item in recording.batches:
+            if isinstance(item, Batch):
+                found.extend(read_batch(painter, item, evaluator or "vertex"))
+            else:
+                found.append(read_collection(painter, item, evaluator or "vertex"))
     painter.evaluation.sweep()
     return found
 

@@ -155,6 +155,12 @@ class Painter:
         return Comparison(self.ctx)
 
     @cached_property
+    def nowhere(self) -> moderngl.Framebuffer:
+        """A framebuffer to be bound while evaluating: without any, surfaceless EGL evaluates
+        nothing and says nothing."""
+        return self.ctx.framebuffer([self.ctx.renderbuffer((1, 1))])
+
+    @cached_property
     def recordings(self) -> Recordings:
         """What evaluator calls recorded."""
         from .recordings import Recordings

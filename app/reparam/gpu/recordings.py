@@ -205,7 +205,9 @@ class Recordings:
     def _drawables(self, recording: Recording) -> list[Drawable]:
         """What was evaluated for a recording, kept as long as it is."""
         if recording not in self._kept:
-            self._kept[recording] = made = [self._upload(item) for item in recording.batches]
+            with self._ctx.scope(self._painter.nowhere, moderngl.NOTHING):
+                made = [self._upload(item) for item in recording.batches]
+            self._kept[recording] = made
             weakref.finalize(recording, self._dead.append, made).atexit = False
             self._painter.evaluation.sweep()
         for dead in self._dead:
