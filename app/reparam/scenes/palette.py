@@ -29,6 +29,8 @@ KEPT = rgb("D55E00")  # vermillion, on a curve: what stays as it was
 MODIFIED = rgb("0072B2")  # blue, on a curve: what a designer changes
 SMOOTH = rgb("009E73")  # bluish green: where things join as they should
 SHARP = rgb("D55E00")  # vermillion: where they do not
+STAYS = rgb("0072B2")  # blue, on a trim loop: its inside stays
+GOES = rgb("D55E00")  # vermillion: its inside goes
 FACETS = {  # the patches around a facet of that size; 4: all is regular
     3: rgb("009E73"),
     4: rgb("A9D6F0"),

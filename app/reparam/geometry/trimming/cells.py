@@ -144,8 +144,8 @@ def corners_of(low: Array, size: float, division: int) -> Array:
 
 
 def first_side(graphs: Graphs) -> int:
-    """Cells along a side of the first grid: about one for four graphs."""
-    wanted = np.log2(max(len(graphs) / 4, 1)) / 2.0
+    """Cells along a side of the first grid: about four for a graph."""
+    wanted = np.log2(max(4 * len(graphs), 1)) / 2.0
     return int(np.clip(2 ** round(wanted), COARSEST, FINEST))
 
 
