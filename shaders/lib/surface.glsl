@@ -3,6 +3,9 @@
 
 uniform mat4 clip_from_model;
 
+// The parts of a trimmed surface are drawn by two programs and must meet.
+invariant gl_Position;
+
 #ifdef TEXTURED
 uniform vec4 image_from_map;   // scale s, scale t, offset s, offset t
 out vec3 image_map;

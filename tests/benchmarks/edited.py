@@ -17,7 +17,8 @@ from frames import FROM_ABOVE, frames, wavy_patches
 from reparam.bench import Rows, Skipped, interleave
 from reparam.geometry.bernstein import bernstein
 from reparam.geometry.net import Array
-from reparam.gpu.surfaces import Look, triangle_indices
+from reparam.gpu.meshes import triangle_indices
+from reparam.gpu.surfaces import Look
 from reparam.scenes.layers import Patches
 from reparam.snapshot import Studio
 

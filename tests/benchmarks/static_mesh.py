@@ -14,7 +14,8 @@ from reparam.bench import Rows, Skipped, interleave
 from reparam.geometry.camera import Camera
 from reparam.geometry.evaluate import evaluate, grid_parameters
 from reparam.geometry.normal import surface_normal
-from reparam.gpu.surfaces import Look, triangle_indices
+from reparam.gpu.meshes import triangle_indices
+from reparam.gpu.surfaces import Look
 from reparam.scenes.layers import Patches, Picture, Texture
 from reparam.snapshot import Studio
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -10,19 +10,20 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import GraphicsError
 from ..geometry.camera import Camera
 from ..geometry.evaluate import grid_parameters
+from ..geometry.trimming.lookup import CUT, INSIDE
 from ..scenes.layers import Color, Patches
 from ..scenes.shading import Shading
 from .adaptive import HARDWARE_LEVEL, SOFTWARE_CHUNK, Adaptive, Tolerance
 from .context import Capabilities
 from .evaluation import FLOATS, Evaluation, orders, patch_count
 from .kept import Kept
+from .meshes import triangle_indices
 from .nets import NET_UNIT
 from .pictures import Pictures
 from .programs import Program, Programs, degree_defines
-from .trims import Trims
+from .trims import Part, Trims
 
 Array = NDArray[np.float64]
 
@@ -33,6 +34,10 @@ SHAPED = ("zebra", "gauss", "mean")  # told by the patch's own derivatives, frag
 Fine = int | Tolerance  # steps in u and in v of every patch, or what a drawn point may be off
 
 SAMPLE_ALPHA_TO_COVERAGE = 0x809E
+TRIMMED_TILE = 8  # steps: of a trimmed surface only tiles near its curves look them up
+
+Tile = tuple[int, int, int, int]
+Tiles = Sequence[tuple[Tile, NDArray[np.int32]]]
 
 grid = lru_cache(maxsize=16)(grid_parameters)
 
@@ -191,20 +196,21 @@ class Surfaces:
             if texture_net is not None
             else None
         )
-        program = self._programs.get("mesh.vert", "patch.frag", defines=defines)
         for batch in positions:
             points = "4f 3f" if "LIT" in defines else "4f 12x" if layer.lit else "4f"
             names = ("point", "normal") if "LIT" in defines else ("point",)
             content = [(batch.vertices, points, *names)]
             if maps is not None:
                 content.append((next(maps).vertices, "4f", "map"))
-            self.set_common(program, layer, camera, look)
-            program.set(level=level, first_patch=batch.patches.start)
-            vertices = self._ctx.vertex_array(
-                program.ready(), content, self._triangles(level, len(batch.patches))
-            )
-            vertices.render(vertices=6 * level * level * len(batch.patches))
-            vertices.release()
+            for part in self._parts(layer, level, batch.patches):
+                program = self._programs.get(
+                    "mesh.vert", "patch.frag", defines=decided(defines, part.trimmed)
+                )
+                self.set_common(program, layer, camera, look)
+                program.set(level=level, first_patch=batch.patches.start)
+                vertices = self._ctx.vertex_array(program.ready(), content, part.indices)
+                vertices.render(vertices=part.count)
+                vertices.release()
 
     def _evaluated(self, net: Array, level: int, count: int, normals: bool) -> Iterator[Batch]:
         """The net's batches: kept while the same net is drawn, or made one by one if too large."""
@@ -223,6 +229,13 @@ class Surfaces:
             captured = self._evaluation.run(net, grid(level), patches, normals=normals)
             yield Batch(patches, captured)
 
+    def _parts(self, layer: Patches, level: int, patches: range) -> list[Part]:
+        """The triangles to draw; in a trimmed surface only some must ask for each fragment."""
+        if layer.trim is not None:
+            return self._trims.parts(layer, level, patches)
+        count = len(patches)
+        return [Part(False, self._triangles(level, count), 6 * level * level * count)]
+
     def _triangles(self, level: int, patches: int) -> moderngl.Buffer:
         """Indices of two triangles a cell, counter-clockwise in (u,v), as the normal has it."""
         room = 1 << (patches - 1).bit_length()
@@ -239,16 +252,37 @@ class Surfaces:
         if "TEXTURED" in defines:
             assert layer.texture is not None
             nets["TEXTURE_"] = orders(layer.texture.net)
-        program = self._programs.get(
-            "patch.tess.vert",
-            "patch.tesc",
-            "patch.tese",
-            "patch.frag",
-            defines=defines | degree_defines(**nets),
-        )
+        for trimmed, chosen in self._tiles(layer, level):
+            program = self._programs.get(
+                "patch.tess.vert",
+                "patch.tesc",
+                "patch.tese",
+                "patch.frag",
+                defines=decided(defines, trimmed) | degree_defines(**nets),
+            )
+            self._set_nets(program, layer, level)
+            self.set_common(program, layer, camera, look)
+            self._draw_tiles(program, chosen)
+
+    def _tiles(self, layer: Patches, level: int) -> Iterator[tuple[bool, Tiles]]:
+        """The tiles to draw, with the patches of each; of a trimmed surface in small ones, first
+        those that no curve comes near, then those whose fragments are to be decided."""
+        everything = np.arange(patch_count(layer.net), dtype=np.int32)
+        if layer.trim is None:
+            yield False, [(tile, everything) for tile in tiles(level)]
+            return
+        pieces = tiles(level, TRIMMED_TILE)
+        lines = np.append(np.arange(0, level, TRIMMED_TILE), level) / level
+        kept = self._trims.cells(layer, lines).reshape(-1, len(pieces))
+        kept = np.broadcast_to(kept, (len(everything), len(pieces)))
+        for which in (INSIDE, CUT):
+            chosen = [(tile, everything[kept[:, i] == which]) for i, tile in enumerate(pieces)]
+            yield which == CUT, [(tile, patches) for tile, patches in chosen if len(patches)]
+
+    def _set_nets(self, program: Program, layer: Patches, level: int) -> None:
         self._evaluation.texture(layer.net).use(0)
         program.set(position_net=0, position_degree=orders(layer.net), level=level)
-        if "TEXTURED" in defines:
+        if "TEXTURED" in program.defines:
             assert layer.texture is not None
             self._evaluation.texture(layer.texture.net).use(1)
             program.set(
@@ -256,22 +290,24 @@ class Surfaces:
                 texture_degree=orders(layer.texture.net),
                 texture_stride=0 if patch_count(layer.texture.net) == 1 else 1,
             )
-        self.set_common(program, layer, camera, look)
-        self.tessellate(program, patch_count(layer.net), level)
 
     def tessellate(self, program: Program, count: int, level: int) -> None:
         """Draw all patches with a tessellation program, tile by tile and chunk by chunk."""
-        numbers = self._ctx.buffer(np.arange(count, dtype=np.int32).tobytes())
+        everything = np.arange(count, dtype=np.int32)
+        self._draw_tiles(program, [(tile, everything) for tile in tiles(level)])
+
+    def _draw_tiles(self, program: Program, chosen: Tiles) -> None:
         self._ctx.patch_vertices = 1
-        for tile in tiles(level):
+        for tile, patches in chosen:
+            numbers = self._ctx.buffer(patches.tobytes())
             program.set(tile=tile)
             vertices = self._ctx.vertex_array(program.ready(), [(numbers, "1i", "patch_index")])
-            for first in range(0, count, self._chunk):
+            for first in range(0, len(patches), self._chunk):
                 vertices.render(
-                    moderngl.PATCHES, vertices=min(self._chunk, count - first), first=first
+                    moderngl.PATCHES, vertices=min(self._chunk, len(patches) - first), first=first
                 )
             vertices.release()
-        numbers.release()
+            numbers.release()
 
 
 def _release(batches: list[Batch]) -> None:
@@ -279,19 +315,13 @@ def _release(batches: list[Batch]) -> None:
         batch.vertices.release()
 
 
-def triangle_indices(level: int, patches: int) -> NDArray[np.int32]:
-    """Vertex numbers (patches, level, level, 6) of the grid's triangles."""
-    stride = (level + 1) ** 2
-    if patches * stride >= 1 << 31:
-        raise GraphicsError(f"expected fewer than 2^31 vertices, found {patches * stride}")
-    corner = np.arange(stride, dtype=np.int32).reshape(level + 1, level + 1)
-    a, b, c, d = corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:]
-    cells = np.stack([a, b, c, a, c, d], -1)
-    return cells + (np.arange(patches, dtype=np.int32) * stride)[:, None, None, None]
+def decided(defines: dict[str, int], trimmed: bool) -> dict[str, int]:
+    """The defines for what is trimmed, or for a part that no curve comes near."""
+    return {k: v for k, v in defines.items() if trimmed or k not in ("TRIMMED", "ANTIALIASED")}
 
 
-def tiles(level: int) -> list[tuple[int, int, int, int]]:
+def tiles(level: int, largest: int = HARDWARE_LEVEL) -> list[Tile]:
     """(first step in u, in v, steps in u, in v) of the tiles that a level is drawn in."""
-    starts = range(0, level, HARDWARE_LEVEL)
-    steps = {start: min(HARDWARE_LEVEL, level - start) for start in starts}
+    starts = range(0, level, largest)
+    steps = {start: min(largest, level - start) for start in starts}
     return [(u, v, steps[u], steps[v]) for u in starts for v in starts]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import moderngl
@@ -10,9 +11,11 @@ from numpy.typing import NDArray
 
 from ..errors import GraphicsError
 from ..geometry.trimming import TrimRegion
+from ..geometry.trimming.lookup import CUT, INSIDE, boxes_kept
 from ..geometry.trimming.packing import PackedTrim
 from ..scenes.layers import Patches
 from .kept import Kept
+from .meshes import triangle_indices
 from .nets import NET_WIDTH, net_texture
 from .programs import Program
 
@@ -35,12 +38,27 @@ class TrimTextures:
             texture.release()
 
 
+@dataclass(frozen=True)
+class Part:
+    """Triangles of a batch: whether fragments are to be decided, and the vertices' numbers."""
+
+    trimmed: bool
+    indices: moderngl.Buffer
+    count: int
+
+
+def _release(parts: list[Part]) -> None:
+    for part in parts:
+        part.indices.release()
+
+
 class Trims:
     """What programs with TRIMMED read."""
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self._ctx = ctx
         self._regions: Kept[TrimTextures] = Kept(TrimTextures.release)
+        self._parts: Kept[list[Part]] = Kept(_release)
         self._domains: Kept[moderngl.Texture] = Kept(lambda texture: texture.release())
 
     def bind(self, program: Program, layer: Patches, unit: int) -> None:
@@ -69,6 +87,41 @@ class Trims:
             domain_stride=0 if domains is None else 1,
         )
 
+    def cells(self, layer: Patches, lines: Array) -> NDArray[np.int8]:
+        """What stays of the cells between lines 0 .. 1 of each patch: (patches, k, k), or (1, k,
+        k) without domains."""
+        region = layer.trim
+        assert region is not None
+        u0, u1, v0, v1 = domains_in_square(region, layer.domains)[:, 0].T[..., None]
+        u, v = u0 + (u1 - u0) * lines, v0 + (v1 - v0) * lines
+        ua, va = np.broadcast_arrays(u[:, :-1, None], v[:, None, :-1])
+        ub, vb = np.broadcast_arrays(u[:, 1:, None], v[:, None, 1:])
+        low = np.stack([np.minimum(ua, ub), np.minimum(va, vb)], -1)
+        high = np.stack([np.maximum(ua, ub), np.maximum(va, vb)], -1)
+        kept = boxes_kept(region.pack(), low.reshape(-1, 2), high.reshape(-1, 2))
+        return kept.reshape(low.shape[:-1])
+
+    def parts(self, layer: Patches, level: int, patches: range) -> list[Part]:
+        """The triangles of a batch of patches that no curve comes near, and the others; those
+        outside are left out. Kept while they are drawn."""
+        region = layer.trim
+        assert region is not None
+        domains = b"" if layer.domains is None else layer.domains.tobytes()
+        key = (region.domain, domains, level, patches.start, patches.stop)
+        return self._parts.get(
+            region.pack().shares, key, lambda: list(self._split(layer, level, patches))
+        )
+
+    def _split(self, layer: Patches, level: int, patches: range) -> Iterator[Part]:
+        kept = self.cells(layer, np.arange(level + 1) / level)
+        own = kept if layer.domains is None else kept[patches.start : patches.stop]
+        own = np.broadcast_to(own, (len(patches), level, level))
+        indices = triangle_indices(level, len(patches))
+        for which in (INSIDE, CUT):
+            chosen = indices[own == which]
+            if len(chosen):
+                yield Part(which == CUT, self._ctx.buffer(chosen.tobytes()), chosen.size)
+
     def _upload(self, packed: PackedTrim) -> TrimTextures:
         rows = -(-len(packed.nodes) // NET_WIDTH)
         if rows > self._ctx.info["GL_MAX_TEXTURE_SIZE"]:
@@ -92,6 +145,7 @@ class Trims:
         """End of a frame."""
         self._regions.sweep()
         self._domains.sweep()
+        self._parts.sweep()
 
 
 def domains_in_square(region: TrimRegion, domains: Array | None) -> Array:

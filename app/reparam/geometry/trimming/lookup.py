@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .cells import DIVISION, MARGIN, ray_crossings
 from .graphs import FLAT, STEEP, TERMS, Graphs
 from .packing import FLAT_UNIT, PackedTrim
 from .pieces import Array, Indices
 from .winding import expand
+
+OUTSIDE, INSIDE, CUT = 0, 1, 2
 
 
 def find_leaf(
@@ -47,6 +50,22 @@ def _pieces_of(packed: PackedTrim, leaf: Indices) -> tuple[Indices, Graphs]:
     values = packed.pieces[place].astype(np.float64)
     axis = np.where(place < (begin + steeps)[number], STEEP, FLAT)
     return number, Graphs(axis, values[:, 0].reshape(-1, 2, 2), values[:, 1:].reshape(-1, TERMS))
+
+
+def boxes_kept(packed: PackedTrim, low: Array, high: Array) -> NDArray[np.int8]:
+    """What stays of boxes [low, high] (n, 2) of the unit square: OUTSIDE, INSIDE, or CUT where a
+    curve may come near: (n,). By cells of the first grid, summed up beforehand."""
+    grid = packed.nodes[: packed.side**2].reshape(packed.side, packed.side, 4)
+    met = (grid[..., 1] > 0) | (grid[..., 3] > 0)
+    total = np.pad(met.astype(np.int64).cumsum(0).cumsum(1), ((1, 0), (1, 0)))
+    first, last = (
+        np.clip(np.floor(box * packed.side + slack), 0, packed.side - 1).astype(np.intp)
+        for box, slack in ((low, -1e-6), (high, 1e-6))
+    )
+    (i, j), (k, m) = first.T, last.T
+    count = total[m + 1, k + 1] - total[j, k + 1] - total[m + 1, i] + total[j, i]
+    alike = np.where(grid[j, i, 2] != 0, INSIDE, OUTSIDE)
+    return np.where(count > 0, CUT, alike).astype(np.int8)
 
 
 def winding_number(packed: PackedTrim, points: Array) -> Indices:
