@@ -54,6 +54,11 @@ class TrimRegion:
         """The pieces without the domain's own border."""
         return WindingIndex(self.pieces.take(~on_border(self.pieces.ends)))
 
+    @property
+    def keeps_outside(self) -> bool:
+        """Whether what lies outside all loops stays: clockwise outermost loops, or none."""
+        return bool((self.pieces.loop < 0).any())
+
     def pack(self) -> PackedTrim:
         """The region as arrays for the GPU; made once."""
         return self._packed
