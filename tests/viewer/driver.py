@@ -78,6 +78,7 @@ class Window:
         self.folder = folder
         self._at = ("", "")  # of the mouse
         self.environment = {**os.environ, "DISPLAY": screen.name, "PYTHONUNBUFFERED": "1"}
+        others = self._windows()
         command = [sys.executable, "-m", "reparam", "view", "--size", "320x240", *words]
         app = Path(__file__).parents[2] / "app"
         self.environment["PYTHONPATH"] = str(app)
@@ -87,13 +88,21 @@ class Window:
                 command, cwd=folder, env=self.environment, stdout=log, stderr=log
             )
         self.wait_for("H: all keys")
-        self.id = self.xdotool("search", "--sync", "--name", "reparam").split()[-1]
+        self.id = next(iter(self._windows() - others))
 
     def xdotool(self, *words: str) -> str:
         result = subprocess.run(
             ["xdotool", *words], env=self.environment, capture_output=True, text=True, check=True
         )
         return result.stdout
+
+    def _windows(self) -> set[str]:
+        """The windows of all viewers on the screen."""
+        command = ["xdotool", "search", "--name", "^reparam"]
+        found = subprocess.run(
+            command, env=self.environment, capture_output=True, text=True, check=False
+        )
+        return set(found.stdout.split())
 
     def wait_for(self, text: str, times: int = 1) -> None:
         until = time.monotonic() + SECONDS

@@ -62,6 +62,14 @@ def test_without_a_point_a_parameter_is_asked_for() -> None:
     assert (table.state.subject.value("checks"), table.state.subject.value("net")) == (5, True)
 
 
+def test_where_a_point_is_asked_for_a_parameter_will_do() -> None:
+    table = Table()
+    table.hand.point_at(*table.pixel(MIDDLE), 1.0)
+    table.hand.ask()
+    typed(table.state, "checks = 6")
+    assert (table.state.subject.value("checks"), table.state.prompt) == (6, None)
+
+
 def test_keys_edit_the_line() -> None:
     state = State(open_subject("fig5"), ("vertex",), "vertex")
     heard: list[str] = []

@@ -70,6 +70,10 @@ def draw_grid(sheet: Sheet, panel: Panel) -> None:
 
 def _in_panel(sheet: Sheet, panel: Panel, layer: Handles, only: int | None = None) -> None:
     region, painter, size = panel.region, sheet.painter, sheet.size
+    if only is None:  # half of a handle at the rim of a space would say nothing
+        pixels = panel.camera.pixels(layer.at, region.width, region.height)
+        inside = ((pixels >= 0.0) & (pixels <= [region.width, region.height])).all(-1)
+        layer = replace(layer, at=layer.at[inside])
     box = (region.left, region.bottom, region.width, region.height)
     painter.ctx.viewport = painter.ctx.scissor = box
     painter.strokes.draw_handles(layer, panel.camera, min(size) / UNITS, only)

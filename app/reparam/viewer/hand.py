@@ -180,7 +180,10 @@ class Hand:
         self._state.ask(title, lambda text: self._put(grip, text, 3 if spatial else 2), start)
 
     def _put(self, grip: Grip, text: str, count: int) -> None:
-        """A handle to the coordinates that were typed. Raises UsageError."""
+        """A handle to the coordinates that were typed, or a parameter. Raises UsageError."""
+        if "=" in text:
+            self._state.set_by_text(text)
+            return
         layer = self.layer(grip)
         try:
             numbers = [float(word) for word in text.strip("()").replace(",", " ").split()]

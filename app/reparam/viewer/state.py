@@ -316,9 +316,10 @@ class State:
 
     def ask_for_parameter(self) -> None:
         """Ask for `name=value`, as the command line has it."""
-        self.ask("set a parameter:  name = value", self._assign)
+        self.ask("set a parameter:  name = value", self.set_by_text)
 
-    def _assign(self, text: str) -> None:
+    def set_by_text(self, text: str) -> None:
+        """Set a parameter by `name = value`. Raises UsageError, FileFormatError."""
         name, equals, value = text.partition("=")
         name = name.strip()
         subject = self.subject.assigned([f"{name}={value.strip()}"] if equals else [text])
@@ -379,7 +380,7 @@ class State:
     def assign(self, name: str, text: str) -> None:
         """A parameter by its text, as on the command line: changed and told, or told why not."""
         try:
-            self._assign(f"{name}={text}")
+            self.set_by_text(f"{name}={text}")
         except (ReparamError, ValueError) as fault:
             self.say(str(fault), 8.0)
 

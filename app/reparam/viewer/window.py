@@ -239,7 +239,8 @@ class Viewer:
         hand, display = self._mouse.hand, self.state.subject.display
         if self._mouse.inside or hand.held or display.net:
             draw_handles(sheet, hand, display.net)
-        if (grip := hand.chosen if hand.held else hand.over) is not None:
+        asked = hand.held or self.state.prompt is not None
+        if (grip := (hand.chosen if asked else None) or hand.over) is not None:
             panel = hand.panel(grip.space)
             if hand.snapping and panel is not None:
                 draw_grid(sheet, panel)
