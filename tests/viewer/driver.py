@@ -92,8 +92,9 @@ class Window:
 
     def xdotool(self, *words: str) -> str:
         result = subprocess.run(
-            ["xdotool", *words], env=self.environment, capture_output=True, text=True, check=True
+            ["xdotool", *words], env=self.environment, capture_output=True, text=True, check=False
         )
+        assert result.returncode == 0, result.stderr + self.log.read_text()[-5000:]
         return result.stdout
 
     def _windows(self) -> set[str]:

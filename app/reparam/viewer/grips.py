@@ -73,7 +73,10 @@ def _in_panel(sheet: Sheet, panel: Panel, layer: Handles, only: int | None = Non
     if only is None:  # half of a handle at the rim of a space would say nothing
         pixels = panel.camera.pixels(layer.at, region.width, region.height)
         inside = ((pixels >= 0.0) & (pixels <= [region.width, region.height])).all(-1)
-        layer = replace(layer, at=layer.at[inside])
+        if not inside.any():
+            return
+        if not inside.all():
+            layer = replace(layer, at=layer.at[inside])
     box = (region.left, region.bottom, region.width, region.height)
     painter.ctx.viewport = painter.ctx.scissor = box
     painter.strokes.draw_handles(layer, panel.camera, min(size) / UNITS, only)

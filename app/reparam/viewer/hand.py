@@ -45,10 +45,12 @@ class Hand:
         self._from = np.zeros(2)  # the mouse then
         self._offset = np.zeros(2)  # from the mouse to the handle's middle then
         self._moving = False
+        self._places: dict[tuple[str, int], Array] = {}  # pixels of layers, since the last drawing
 
     def see(self, panels: list[Panel]) -> None:
         """These were drawn last."""
         self.panels = panels
+        self._places.clear()
         if self.chosen is not None and self.layer(self.chosen) is None:
             self.chosen, self.held = None, False
         if self.over is not None and self.layer(self.over) is None:
@@ -88,7 +90,12 @@ class Hand:
             for number, layer in enumerate(panel.space.layers):
                 if not isinstance(layer, Handles) or not len(layer.at):
                     continue
-                away = np.linalg.norm(_pixels(panel, layer.at) - mouse, axis=-1).round(1)
+                key = (panel.space.name, number)
+                if key not in self._places:
+                    self._places[key] = _pixels(panel, layer.at)
+                away = np.linalg.norm(self._places[key] - mouse, axis=-1).round(1)
+                if away.min() > reach:
+                    continue
                 behind = -(layer.at @ panel.camera.rotation[2])
                 index = int(np.lexsort((behind, away))[0])
                 rank = (float(away[index]), float(behind[index]))
