@@ -43,7 +43,7 @@ def virtual_screen(dots_an_inch: int | None = None) -> Iterator[Screen]:
     read, write = os.pipe()
     folder = tempfile.TemporaryDirectory()
     command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "800x600x24", "-nolisten", "tcp"]
-    command += ["-fbdir", folder.name]
+    command += ["-fbdir", folder.name, "-noreset"]  # it keeps what a program left on it
     server = subprocess.Popen(command, pass_fds=[write], stderr=subprocess.DEVNULL)
     os.close(write)
     with os.fdopen(read) as pipe:
@@ -67,7 +67,6 @@ def set_dots_an_inch(display: str, dots: int) -> None:
     root = ctypes.c_ulong(x11.XDefaultRootWindow(there))
     text, replace, resource_manager, string = f"Xft.dpi:\t{dots}\n".encode(), 0, 23, 31
     x11.XChangeProperty(there, root, resource_manager, string, 8, replace, text, len(text))
-    x11.XSetCloseDownMode(there, 1)  # it stays when this connection is gone
     x11.XCloseDisplay(there)
 
 
