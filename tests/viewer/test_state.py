@@ -17,7 +17,8 @@ from reparam.viewer.keeping import Keeping
 from reparam.viewer.keyboard import bind
 from reparam.viewer.keys import KEYS
 from reparam.viewer.side import Side
-from reparam.viewer.state import ANIMATION_SECONDS, CHECKS, GLIDE_SECONDS, LEVELS, State
+from reparam.viewer.stage import ANIMATION_SECONDS
+from reparam.viewer.state import CHECKS, GLIDE_SECONDS, LEVELS, State
 from reparam.viewer.window import Viewer, hint
 
 MIXED = Path(__file__).parents[1] / "data" / "mixed.bv"
