@@ -7,7 +7,7 @@ Nurbs  ->  parts (one Mesh or Collection each, of local parameters)  ->  Recordi
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -178,6 +178,23 @@ def culled(nurbs: Nurbs, nets: Array) -> NDArray[np.bool_]:
     clip = nets @ nurbs.view.clip_from_object.T
     beyond = [sign * clip[..., axis] > clip[..., 3] for axis in range(3) for sign in (-1, 1)]
     return np.asarray(np.stack(beyond).all((-2, -1)).any(0))
+
+
+def recording(*recorded: Nurbs, current: Current | None = None) -> Recording:
+    """Curves and surfaces as what `Evaluators.draw` draws, with these current values."""
+    current = current or Current()
+    return Recording(
+        tuple(_with_current(part.item, current) for nurbs in recorded for part in parts(nurbs))
+    )
+
+
+def _with_current(item: Mesh | Collection, current: Current) -> Mesh | Collection:
+    if isinstance(item, Mesh):
+        return replace(item, current=current)
+    given = dict(item.given)
+    for attribute in HAVE_CURRENT:
+        given[attribute] = np.broadcast_to(current.value(attribute), given[attribute].shape)
+    return replace(item, given=given)
 
 
 def tessellate(nurbs: Nurbs, read: Read) -> Tessellation:
