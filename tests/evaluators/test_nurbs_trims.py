@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from reparam.evaluators.constants import GL_LINES, GL_MAP2_VERTEX_3, GL_TRIANGLES
+from reparam.evaluators.constants import GL_LINE_STRIP, GL_MAP2_VERTEX_3, GL_TRIANGLES
 from reparam.evaluators.glu_constants import (
     GLU_DISPLAY_MODE,
     GLU_DOMAIN_DISTANCE,
@@ -154,7 +154,8 @@ def test_path_length_holds_for_trimmed_triangles() -> None:
 def test_outlines() -> None:
     loops = REGIONS["hole"][0]
     outline = tessellate(trimmed(*loops, display=GLU_OUTLINE_PATCH), read_float64)
-    assert {strip.mode for strip in outline.strips} == {GL_LINES}
+    assert {strip.mode for strip in outline.strips} == {GL_LINE_STRIP}
+    assert len(outline.strips) < 40
     lines = outline.parameters[outline.primitives]
     length = np.linalg.norm(lines[:, 1] - lines[:, 0], axis=-1).sum()
     chords = sum(2 * np.sqrt(0.09 - (t - 0.5) ** 2) for t in (0.25, 0.5) for _ in "uv")

@@ -142,9 +142,8 @@ def _trimmed(nurbs: Nurbs) -> Iterator[Part]:
     """What the trims leave of each piece: triangles, or lines."""
     mode, cut = trimmed_pieces(nurbs, *steps(nurbs))
     for place, maps, low, size in _pieces(nurbs):
-        if place in cut:
-            local = (cut[place] - low) / size
-            yield Part(collection(mode, maps, local), low, size)
+        for points in cut.get(place, ()):
+            yield Part(collection(mode, maps, (points - low) / size), low, size)
 
 
 def _walk(count: int) -> Walk:
