@@ -25,8 +25,8 @@ FINEST_GRID = 1024  # of the vertex evaluator, which keeps its grids
 SOFTWARE_CHUNK = 64  # llvmpipe's tessellator is quadratic in the patches of one draw
 
 # Where an edge has other steps than the patch, how they are stitched is the driver's: triangles
-# there may span a fifth more than a step. (The vertex evaluator's own stitching spans no more.)
-STITCHING = {"vertex": 1.0, "tessellation": 1.2**2}
+# there may span a third more than a step. (The vertex evaluator's own stitching spans no more.)
+STITCHING = {"vertex": 1.0, "tessellation": 1.35**2}
 
 Ints = NDArray[np.int64]
 SetCommon = Callable[[Program], None]
