@@ -112,6 +112,12 @@ def test_queries(gl: Recorder) -> None:
     assert gl.glGetIntegerv(GL_MAP2_VERTEX_3) == 1
 
 
+def test_what_a_query_answers_is_a_copy(gl: Recorder) -> None:
+    gl.glGetMapdv(GL_MAP2_VERTEX_3, GL_COEFF)[:] = 7.0
+    gl.glGetMapfv(GL_MAP2_VERTEX_3, GL_COEFF)[:] = 7.0
+    assert (coefficients(gl) == NET.ravel()).all()
+
+
 def test_initial_maps() -> None:
     gl = Recorder()
     initial = {

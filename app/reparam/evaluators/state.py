@@ -134,7 +134,7 @@ class State:
         found = find_target(call, target)
         asked = self._maps[target]
         if query == k.GL_COEFF:
-            return asked.points.ravel()
+            return asked.points.flatten()  # a copy: the map is OpenGL's
         if query == k.GL_ORDER:
             return np.array(asked.points.shape[: found.dimension], np.float64)
         if query == k.GL_DOMAIN:

@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from .painter import Painter
 
 Single = NDArray[np.float32]
-Content = tuple[moderngl.Buffer, str, Attribute]
 
 TEXTURE_UNIT = 0
 MODES = {1: moderngl.POINTS, 2: moderngl.LINES, 3: moderngl.TRIANGLES}
