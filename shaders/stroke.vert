@@ -49,7 +49,10 @@ void main() {
     float beyond = 1.0;
     if (next >= 0)
         beyond = overhang(along, line_point(next).xy - line_point(next - 1).xy);
+    float ahead = half_width * beyond + MARGIN;
     vec2 pixel = place.xy + left * corner.y * (half_width + MARGIN)
-        + along * (corner.x * 2.0 - 1.0) * (half_width * beyond + MARGIN);
-    gl_Position = vec4((pixel - region.xy) / region.zw * 2.0 - 1.0, place.z - depth_bias, 1.0);
+        + along * (corner.x * 2.0 - 1.0) * ahead;
+    // The cap goes on in depth as the segment does: lines of two widths stay one over the other.
+    float depth = place.z + (place.z - (at_end ? start.z : end.z)) * min(ahead / max(span, 1e-3), 1.0);
+    gl_Position = vec4((pixel - region.xy) / region.zw * 2.0 - 1.0, depth - depth_bias, 1.0);
 }

@@ -11,9 +11,13 @@ from numpy.typing import NDArray
 
 from reparam.geometry.camera import View
 from reparam.geometry.evaluate import evaluate, project
+from reparam.geometry.net import control_net
 from reparam.gpu.painter import UNITS, Panel, arrange
+from reparam.gpu.targets import Target
 from reparam.scenes import palette
 from reparam.scenes.cursor import POINT
+from reparam.scenes.display import Display
+from reparam.scenes.layers import Figure, IsoLines, Space
 from reparam.snapshot import Studio
 from reparam.subject import Subject, open_subject
 from reparam.viewer.pointer import Pointer
@@ -130,3 +134,23 @@ def test_of_a_surface_in_space_the_near_side(tmp_path: Path) -> None:
             assert (state.cursor.u, state.cursor.v) == pytest.approx((u, 0.4), abs=1e-6)
     assert any(hidden)
     assert not all(hidden)
+
+
+def test_a_lifted_line_lies_on_a_wider_one_all_along(studio: Studio) -> None:
+    """Where it runs away from the eye, too: caps of two widths must not tilt the two lines."""
+    net = control_net([[(0, 0, 0), (0, 9, 0)], [(1, 0, 0), (1, 9, 0)]])
+    thin = IsoLines(net, u=(0.5,), color=(1.0, 0.0, 0.0), width=5.0, lift=1)
+    wide = IsoLines(net, u=(0.5,), color=(0.0, 0.0, 0.0), width=14.0)
+
+    def red(*layers: IsoLines) -> NDArray[np.bool_]:
+        space = Space("body", project(net).reshape(-1, 3), layers, spatial=True)
+        target = Target(studio.ctx, (300, 300), 1, studio.painter.capabilities)
+        studio.painter.draw(Figure((space,)), target, Display())
+        picture = target.pixels()
+        studio.ctx.extra.use()
+        target.release()
+        return np.asarray((picture == (255, 0, 0)).all(-1))
+
+    alone = red(thin)
+    assert alone.sum() > 60
+    assert (red(wide, thin) >= alone).all()
