@@ -170,3 +170,19 @@ def test_patches_of_two_degrees_and_one_texture_map_for_all() -> None:
     mixed = linked(Figure((Space("physical", plane(-2, -2, 3, 2), (many, Patches(R))),)))
     assert named(mixed) == ["domain", "physical"]
     assert domain.map is DOMAIN
+
+
+def test_a_surface_of_many_patches_is_shown_in_its_own_parameters() -> None:
+    domains = np.array([[0.0, 1.0, 2.0, 4.0], [1.0, 4.0, 2.0, 4.0]])
+    nets = np.stack([DOMAIN, DOMAIN + np.array([0.0, -1.0, 0.0, 0.0])])
+    space = Space("physical", plane(0, -1, 1, 1), (Patches(nets, domains=domains),))
+    figure = marked(linked(Figure((space,))), Cursor(0.5, 0.25, 1))
+    first = figure.spaces[0]
+    assert first.map is not None
+    assert notes(figure, "domain") == {"(u, v)": "2.5000, 2.5000", "patch": "1 (of 2)"}
+    corners = [
+        project(evaluate(first.map[k], u, v))[:2] for k in (0, 1) for u, v in ((0, 0), (1, 1))
+    ]
+    assert np.array(corners) == pytest.approx(
+        np.array([[0.0, 1.0], [1.0, 0.75], [0.0, 0.75], [1.0, 0.0]])
+    )

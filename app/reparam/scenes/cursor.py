@@ -165,7 +165,7 @@ def notes_of(space: Space, net: Array, cursor: Cursor, many: int) -> tuple[tuple
     if space.name == "domain":
         which = f"{FIGURE_SPACE}{cursor.patch} (of {many})" if many > 1 else ""
         rows = (("patch" if many > 1 else "", which), ("", ""))
-        return ((PLACES["domain"], numbers(cursor.u, cursor.v)), *rows)
+        return ((PLACES["domain"], numbers(*parameters(space, cursor))), *rows)
     here = stretch(net, cursor.u, cursor.v)
     x, y, z = project(evaluate(net, cursor.u, cursor.v))
     planar = len(here.jacobian) == 2
@@ -175,6 +175,14 @@ def notes_of(space: Space, net: Array, cursor: Cursor, many: int) -> tuple[tuple
         ("det" if planar else "area ×", numbers(here.determinant)),
         ("stretch", numbers(*here.factors)),
     )
+
+
+def parameters(space: Space, cursor: Cursor) -> tuple[float, float]:
+    """The cursor's u and v as the surface of its patch counts them."""
+    if space.domains is None:
+        return cursor.u, cursor.v
+    u0, u1, v0, v1 = (float(t) for t in space.domains[cursor.patch])
+    return u0 + (u1 - u0) * cursor.u, v0 + (v1 - v0) * cursor.v
 
 
 def _from_texture(figure: Figure, cursor: Cursor) -> tuple[str, ...]:

@@ -276,7 +276,8 @@ class Space:
     below: bool = False  # in the column of the space before it, not in one of its own
     title: str = ""  # above it; neither pan nor zoom moves it
     notes: tuple[tuple[str, str], ...] = ()  # beneath it, names and values in two columns
-    map: Array | None = None  # the net by which the parameter square lands here: linked.py
+    map: Array | None = None  # the nets by which the parameter square lands here: linked.py
+    domains: Array | None = None  # the patches' own, where `map` shows them as their surface has
 
     def __post_init__(self) -> None:
         _freeze(self)

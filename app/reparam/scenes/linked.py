@@ -25,6 +25,7 @@ from .layers import Array, Color, Figure, IsoLines, Layer, Patches, Space, Textu
 
 LINES = 8  # pieces between the iso-lines
 FADED: Color = (0.78, 0.78, 0.78)  # what no point of the patch shows
+OUTSIDE: Color = (0.87, 0.87, 0.87)  # of the parameters that a trim leaves
 TITLES = {"domain": "domain (u, v)", "texture": "texture (s, t)"}
 AROUND = 0.06  # of free space about a map's image
 
@@ -44,7 +45,7 @@ def linked(figure: Figure) -> Figure:
         return figure
     subject = figure.spaces[-1]
     textures = [layer.texture for layer in patches if layer.texture is not None]
-    spaces = [domain_space()]
+    spaces = [domain_space(patches)]
     if len(textures) == len(patches):
         counts = [len(each.net) if each.net.ndim == 4 else 1 for each in patches]
         net = together([spread(t.net, n) for t, n in zip(textures, counts, strict=True)])
@@ -74,11 +75,37 @@ def together(nets: list[Array]) -> Array:
     return np.concatenate([net.reshape(-1, *net.shape[-3:]) for net in raised])
 
 
-def domain_space() -> Space:
-    """The square with its iso-lines, u down and v right as the note's r has them."""
-    layers = (Patches(DOMAIN, color=palette.DOMAIN), *iso_lines(DOMAIN), *directions(DOMAIN))
+def domain_space(patches: list[Patches]) -> Space:
+    """The square with its iso-lines, u down and v right as the note's r has them.
+
+    One surface made of many patches is shown in its own parameters, trimmed if it is.
+    """
+    layers: tuple[Layer, ...]
+    domains = patches[0].domains if len(patches) == 1 else None
+    if domains is None:
+        net = DOMAIN
+        layers = (Patches(net, color=palette.DOMAIN), *iso_lines(net))
+    else:
+        net = placed(domains)
+        trim = patches[0].trim
+        layers = (
+            Patches(DOMAIN, color=OUTSIDE),
+            Patches(net, color=palette.DOMAIN, domains=domains, trim=trim),
+            *iso_lines(net),
+        )
     bounds = plane(-0.12, -0.04, 1.04, 1.12)
-    return Space("domain", bounds, layers, title=TITLES["domain"], map=DOMAIN)
+    shown = (*layers, *directions(DOMAIN))
+    return Space("domain", bounds, shown, title=TITLES["domain"], map=net, domains=domains)
+
+
+def placed(domains: Array) -> Array:
+    """Nets (patches, 2, 2, 4) of the domains (patches, 4): u0, u1, v0, v1, in DOMAIN's square."""
+    u0, u1, v0, v1 = domains.T
+    (low_u, high_u), (low_v, high_v) = (u0.min(), u1.max()), (v0.min(), v1.max())
+    u = (np.stack([u0, u1]) - low_u) / (high_u - low_u)
+    v = (np.stack([v0, v1]) - low_v) / (high_v - low_v)
+    corners = [[(v[j], 1.0 - u[i]) for j in range(2)] for i in range(2)]
+    return control_net(np.moveaxis(np.array(corners), -1, 0))
 
 
 def texture_space(texture: Texture) -> Space:
