@@ -103,6 +103,7 @@ def test_without_a_command_and_a_screen_the_figures_are_written(
     out: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr("reparam.viewer.screen.screen_missing", lambda: "no screen")
+    monkeypatch.setattr("reparam.cli.FIGURES_SIZE", (160, 120))
     assert main([]) == 0
     folder = out.parent / "figures"
     assert str(folder) in capsys.readouterr().out

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from .subject import Subject
 
 LARGEST_SIDE = 16384
+FIGURES_SIZE = (1024, 768)
 ABOUT = (
     "OpenGL's evaluators on today's GPU, and what a change of variables does to what they draw. "
     "Without a command: the window, or without a screen the figures as PNG into ./figures."
@@ -225,7 +226,7 @@ def run_default(options: argparse.Namespace) -> int:
     from .gallery import write_figures
 
     folder = Path("figures")
-    write_figures(folder, (1024, 768))
+    write_figures(folder, FIGURES_SIZE)
     print(f"{missing}; the figures are in {folder.resolve()}")
     return 0
 

@@ -32,10 +32,13 @@ def _part(layer: Patches, number: int) -> Part:
     nets = layer.net.reshape(-1, *layer.net.shape[-3:])
     name = layer.kind.words or f"patches {number + 1}"
     texture = layer.texture
+    domains = layer.domains
+    if layer.trim is not None and domains is None:
+        domains = np.tile([0.0, 1.0, 0.0, 1.0], (len(nets), 1))
     if texture is None:
-        return Part(name, nets, layer.color)
+        return Part(name, nets, layer.color, trim=layer.trim, domains=domains)
     maps = np.broadcast_to(texture.net, (len(nets), *texture.net.shape[-3:]))
-    return Part(name, nets, layer.color, maps, _attached(texture))
+    return Part(name, nets, layer.color, maps, _attached(texture), layer.trim, domains)
 
 
 def _attached(texture: Texture) -> Attached:

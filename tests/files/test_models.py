@@ -12,13 +12,15 @@ import pytest
 from PIL import Image
 
 from reparam.cli import main
-from reparam.exporting import parts_of
+from reparam.errors import UsageError
+from reparam.exporting import export, parts_of
 from reparam.files.bv import read_bv
 from reparam.files.obj import read_obj
 from reparam.geometry.mesh import mesh
 from reparam.geometry.net import lower_degree, raise_degree
 from reparam.geometry.patch_joins import joins
-from reparam.geometry.tessellate import tessellate, welded
+from reparam.geometry.tessellate import tessellate, tessellate_trimmed, welded
+from reparam.scenes.layers import Patches
 from reparam.subject import open_subject
 
 VOLUME = 4.994457582  # of the rounded cube at ratio 1/2
@@ -179,3 +181,25 @@ def test_bad_names(
 def test_levels_are_checked(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["export", *SUBJECT, "-o", str(tmp_path / "a.stl"), "--level", "0"]) == 2
     assert "level: expected a whole number from 1 to 1024, found '0'" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["trimmed", "redbook-trim"])
+def test_a_trimmed_surface_is_exported_trimmed(name: str, tmp_path: Path) -> None:
+    figure = open_subject(name).figure()
+    layer = next(x for x in figure.spaces[-1].layers if isinstance(x, Patches))
+    parts = parts_of(figure)
+    assert layer.trim is not None
+    mesh = tessellate_trimmed(parts[0].nets, parts[0].domains, layer.trim, 24)
+    whole = tessellate(parts[0].nets, 24)
+    a, b, c = np.moveaxis(mesh.points[mesh.triangles()], 1, 0)
+    p, q, r = np.moveaxis(whole.points[whole.triangles()], 1, 0)
+    areas = [np.linalg.norm(np.cross(y - x, z - x), axis=-1).sum() / 2 for x, y, z in
+             ((a, b, c), (p, q, r))]  # fmt: skip
+    assert 0.3 < areas[0] / areas[1] < 0.98
+    up = (np.cross(b - a, c - a) * mesh.normals[mesh.triangles()].mean(1)).sum(-1)
+    assert (up > -1e-12).all()
+    path = tmp_path / "trimmed.obj"
+    export(open_subject(name).changed("level", 8), path)
+    assert path.read_text().count("\nf ") > 100
+    with pytest.raises(UsageError, match="no trims"):
+        export(open_subject(name), tmp_path / "trimmed.bv")

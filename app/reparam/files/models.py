@@ -23,10 +23,12 @@ from numpy.typing import NDArray
 
 from ..errors import ReparamError
 from ..geometry.net import Array, lower_degree
-from ..geometry.tessellate import Triangles, tessellate, welded
+from ..geometry.tessellate import Triangles, tessellate, tessellate_trimmed, welded
+from ..geometry.trimming import TrimRegion
 from .picture import find_picture, png_bytes, read_picture
 
 Color = tuple[float, float, float]
+TRIMMED = ".obj, .stl, .ply or .glb"
 
 
 @dataclass(frozen=True)
@@ -48,6 +50,8 @@ class Part:
     color: Color
     maps: Array | None = None
     picture: Attached | None = None
+    trim: TrimRegion | None = None
+    domains: Array | None = None  # (P, 4) in the trim region's domain
 
 
 def write_model(parts: Sequence[Part], path: Path, level: int) -> None:
@@ -80,6 +84,8 @@ def ending(path: Path) -> str:
 
 def bv_bytes(parts: Sequence[Part], level: int) -> bytes:  # noqa: ARG001
     """Each patch in its own lowest degree; a group for each part."""
+    if any(part.trim is not None for part in parts):
+        raise ValueError(f"expected {TRIMMED} for a trimmed surface, found .bv, which has no trims")
     lines = []
     for number, part in enumerate(parts):
         lines.append(f"Group {number} {part.name.replace(' ', '_')}")
@@ -100,7 +106,13 @@ def _bv_patch(net: Array) -> list[str]:
 
 
 def _tessellated(parts: Sequence[Part], level: int) -> list[Triangles]:
-    return [tessellate(part.nets, level, part.maps) for part in parts]
+    return [_triangles(part, level) for part in parts]
+
+
+def _triangles(part: Part, level: int) -> Triangles:
+    if part.trim is None or part.domains is None:
+        return tessellate(part.nets, level, part.maps)
+    return tessellate_trimmed(part.nets, part.domains, part.trim, level, part.maps)
 
 
 def obj_bytes(parts: Sequence[Part], level: int) -> bytes:

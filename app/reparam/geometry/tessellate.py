@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 from .evaluate import evaluate, project
 from .net import Array
 from .normal import surface_normal
+from .trimming import TrimRegion
+from .trimming.mesh import triangulate_region
 
 Indices = NDArray[np.intp]
 
@@ -58,6 +60,41 @@ def tessellate(nets: Array, level: int, maps: Array | None = None) -> Triangles:
     a, b = number[:, :-1, :-1], number[:, 1:, :-1]
     c, d = number[:, 1:, 1:], number[:, :-1, 1:]
     quads = np.stack([a, b, c, d], -1).reshape(-1, 4)
+    return Triangles(points, normals, texture, quads, welded(points))
+
+
+def tessellate_trimmed(
+    nets: Array, domains: Array, region: TrimRegion, level: int, maps: Array | None = None
+) -> Triangles:
+    """What a trim region leaves of one surface's patches; `domains` (P, 4) are u0, u1, v0, v1.
+
+    Triangles come as quads with their last corner twice; each lies in one cell of one patch.
+    """
+    steps = np.arange(level + 1) / level
+    lines = [
+        np.unique(np.round(low[:, None] + (high - low)[:, None] * steps, 12))
+        for low, high in (domains[:, :2].T, domains[:, 2:].T)
+    ]
+    parameters, faces = triangulate_region(region, *lines)
+    middle = parameters[faces].mean(1)
+    inside = (middle[:, None, 0] >= domains[:, 0]) & (middle[:, None, 0] <= domains[:, 1])
+    inside &= (middle[:, None, 1] >= domains[:, 2]) & (middle[:, None, 1] <= domains[:, 3])
+    patch = inside.argmax(1)
+    pairs, number = np.unique(
+        np.stack([np.repeat(patch, 3), faces.ravel()], -1), axis=0, return_inverse=True
+    )
+    own, at = pairs.T
+    u0, u1, v0, v1 = domains[own].T
+    u, v = (parameters[at, 0] - u0) / (u1 - u0), (parameters[at, 1] - v0) / (v1 - v0)
+    points, normals = np.empty((len(own), 3)), np.empty((len(own), 3))
+    texture = None if maps is None else np.empty((len(own), 2))
+    for index in np.unique(own):
+        here = own == index
+        points[here] = project(evaluate(nets[index], u[here], v[here]))
+        normals[here] = surface_normal(nets[index], u[here], v[here])
+        if texture is not None and maps is not None:
+            texture[here] = project(evaluate(maps[index], u[here], v[here]))[:, :2]
+    quads = number.reshape(-1, 3)[:, [0, 1, 2, 2]]
     return Triangles(points, normals, texture, quads, welded(points))
 
 
