@@ -84,6 +84,28 @@ def parser() -> argparse.ArgumentParser:
     render.add_argument("--plain", action="store_true", help="the patch alone, centred")
     render.set_defaults(run=run_render)
 
+    animate = commands.add_parser(
+        "animate", help="a moving picture of a scene whose parameters change"
+    )
+    animate.add_argument("subject", metavar="SCENE|FILE")
+    animate.add_argument(
+        "-o", "--output", required=True, metavar="OUT.gif", type=Path, help=".gif, .webp or .png"
+    )
+    animate.add_argument(
+        "--vary",
+        action="append",
+        default=[],
+        metavar="NAME=FROM:TO",
+        help="a number that goes from one value to another, or NAME=A,B,C of names; repeatable",
+    )
+    animate.add_argument("--frames", type=int, default=60, metavar="N", help="60 if not given")
+    animate.add_argument(
+        "--rate", type=float, default=25.0, metavar="R", help="frames a second; 25 if not given"
+    )
+    animate.add_argument("--back", action="store_true", help="there, and the same way back")
+    _add_drawing_options(animate, "512x512")
+    animate.set_defaults(run=run_animate)
+
     check = commands.add_parser("check", help="compute the claims of the scenes")
     check.add_argument("scenes", nargs="*", metavar="SCENE")
     check.add_argument("--json", action="store_true")
@@ -251,6 +273,27 @@ def run_render(options: argparse.Namespace) -> int:
     studio = Studio(options.evaluator)
     picture = studio.draw(subject, size, plain=options.plain)
     save_picture(picture, output)
+    return 0
+
+
+def run_animate(options: argparse.Namespace) -> int:
+    """One moving picture."""
+    from .animate import ENDINGS, MOST_PIXELS, ProgressBar, courses, save_animation
+    from .files.output import check_output
+
+    size, output = parse_size(options.size), check_output(options.output, ENDINGS)
+    if not 1.0 <= options.rate <= 100.0:
+        raise UsageError(f"--rate: expected a number from 1 to 100, found {options.rate:g}")
+    frames = courses(_subject(options), options.vary, options.frames, options.back)
+    if size[0] * size[1] * len(frames) > MOST_PIXELS:
+        raise UsageError(
+            f"--frames: expected at most {MOST_PIXELS // (size[0] * size[1])} of that size, "
+            f"found {len(frames)}"
+        )
+    from .snapshot import Studio
+
+    studio, bar = Studio(options.evaluator), ProgressBar(len(frames))
+    save_animation(frames, lambda frame: studio.draw(frame, size), output, options.rate, bar.step)
     return 0
 
 

@@ -42,7 +42,10 @@ def write_whole(path: Path, write: Callable[[Path], object]) -> None:
     try:
         write(part)
         os.replace(part, path)
-    except OSError as error:
+    except BaseException as error:
         with suppress(OSError):
             part.unlink()
-        raise ReparamError(f"{path}: could not be written: {error.strerror or error}") from error
+        if isinstance(error, OSError):
+            message = f"{path}: could not be written: {error.strerror or error}"
+            raise ReparamError(message) from error
+        raise

@@ -251,7 +251,7 @@ def _parameter(name: str, hint: Any, default: Value) -> Parameter | None:
     )
 
 
-def find(parameters: Mapping[str, Parameter], name: str) -> Parameter:
+def find(parameters: Mapping[str, Parameter], name: str, option: str = "--set") -> Parameter:
     """The parameter of that name. Raises UsageError that suggests the nearest one."""
     if name in parameters:
         return parameters[name]
@@ -259,4 +259,4 @@ def find(parameters: Mapping[str, Parameter], name: str) -> Parameter:
 
     near = get_close_matches(name, parameters, 1)
     meant = f"; did you mean {near[0]}?" if near else ""
-    raise UsageError(f"--set: expected one of {', '.join(parameters)}, found {name!r}{meant}")
+    raise UsageError(f"{option}: expected one of {', '.join(parameters)}, found {name!r}{meant}")
