@@ -17,6 +17,10 @@ from .files.progress import Progress, silent
 from .viewer.keys import keys_text
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from .scenes.layers import Figure
     from .subject import Subject
 
 LARGEST_SIDE = 16384
@@ -79,7 +83,9 @@ def parser() -> argparse.ArgumentParser:
 
     render = commands.add_parser("render", help="draw one picture, no screen needed")
     render.add_argument("subject", metavar="SCENE|FILE")
-    render.add_argument("-o", "--output", required=True, metavar="OUT.png", type=Path)
+    render.add_argument(
+        "-o", "--output", required=True, metavar="OUT.png", type=Path, help=".png, .svg or .pdf"
+    )
     _add_drawing_options(render, "512x512")
     render.add_argument("--plain", action="store_true", help="the patch alone, centred")
     render.set_defaults(run=run_render)
@@ -266,13 +272,39 @@ def run_render(options: argparse.Namespace) -> int:
     """One picture."""
     from .files.output import check_output, save_picture
 
-    size, output = parse_size(options.size), check_output(options.output)
+    size = parse_size(options.size)
+    output = check_output(options.output, (".png", ".svg", ".pdf"))
     subject = _subject(options)
+    if output.suffix.lower() != ".png":
+        return _render_vectors(options, subject, size, output)
     from .snapshot import Studio
 
     studio = Studio(options.evaluator)
     picture = studio.draw(subject, size, plain=options.plain)
     save_picture(picture, output)
+    return 0
+
+
+def _render_vectors(
+    options: argparse.Namespace, subject: Subject, size: tuple[int, int], output: Path
+) -> int:
+    """One picture as SVG or PDF; OpenGL starts only for what must be embedded."""
+    from .files.output import write_bytes
+    from .files.vector import pdf, svg
+    from .vectors import draw_vectors
+
+    if options.plain or subject.display.compare:
+        word = "--plain" if options.plain else "compare"
+        raise UsageError(f"{word}: expected an --output ending in .png, found {str(output)!r}")
+
+    def embedded(figure: Figure, size: tuple[int, int]) -> NDArray[np.uint8]:
+        from .snapshot import Studio
+
+        return Studio(options.evaluator).draw_figure(figure, subject, size)
+
+    drawing = draw_vectors(subject, size, embedded)
+    is_svg = output.suffix.lower() == ".svg"
+    write_bytes(svg(drawing).encode() if is_svg else pdf(drawing), output)
     return 0
 
 
@@ -435,7 +467,7 @@ def _run_curve_joins(options: argparse.Namespace) -> int:
 def run_trace(options: argparse.Namespace) -> int:
     """Equally spaced points of a curve."""
     from .files.curve import read_curve
-    from .files.output import check_output, write_text
+    from .files.output import check_output, write_bytes
     from .trace_report import lengths, rows, table
 
     output = check_output(options.output, (".csv", ".txt")) if options.output else None
@@ -445,7 +477,7 @@ def run_trace(options: argparse.Namespace) -> int:
     if output is None:
         sys.stdout.write(text)
     else:
-        write_text(text, output)
+        write_bytes(text.encode(), output)
     rest = path.arc.length - float(s[-1])
     left = f", {rest:.6g} left over at the end" if rest > 1e-9 * path.arc.length else ""
     print(f"length {path.arc.length:.12g}, {len(s)} points{left}", file=sys.stderr)

@@ -12,6 +12,7 @@ from .compare import agree, blends_by_value, sides
 from .gpu.comparison import Split
 from .gpu.painter import UNITS, Painter, Panel
 from .gpu.targets import Target
+from .scenes.layers import Figure
 from .subject import Subject, open_subject
 
 
@@ -60,6 +61,21 @@ class Apart:
         target = Target(painter.ctx, size, subject.display.samples, painter.capabilities)
         try:
             draw_subject(painter, subject, target, evaluator=self.evaluator, plain=plain)
+            return target.pixels()
+        finally:
+            self._rest.use()
+            target.release()
+
+    def draw_figure(
+        self, figure: Figure, subject: Subject, size: tuple[int, int]
+    ) -> NDArray[np.uint8]:
+        """Another figure, displayed and seen as the subject's own would be."""
+        painter = self.painter
+        target = Target(painter.ctx, size, subject.display.samples, painter.capabilities)
+        try:
+            painter.draw(
+                figure, target, subject.display, evaluator=self.evaluator, views=subject.views
+            )
             return target.pixels()
         finally:
             self._rest.use()

@@ -31,9 +31,9 @@ def save_picture(picture: NDArray[np.uint8], path: Path) -> None:
     write_whole(path, lambda part: Image.fromarray(picture).save(part, "PNG"))
 
 
-def write_text(text: str, path: Path) -> None:
-    """Write text, its lines ended as they are."""
-    write_whole(path, lambda part: part.write_bytes(text.encode("utf-8")))
+def write_bytes(data: bytes, path: Path) -> None:
+    """Write what is ready."""
+    write_whole(path, lambda part: part.write_bytes(data))
 
 
 def write_whole(path: Path, write: Callable[[Path], object]) -> None:

@@ -61,6 +61,20 @@ def curve_derivatives(net: Array, t: ArrayLike, order: int) -> Array:
     return np.stack(found)
 
 
+def restrict(net: Array, start: float, end: float) -> Array:
+    """The same curves (..., n, 4) over [start, end] as over [0, 1], by the blossom: exact."""
+    if (start, end) == (0.0, 1.0):
+        return net
+    degree = net.shape[-2] - 1
+    found = []
+    for i in range(degree + 1):
+        points = net
+        for t in (end,) * i + (start,) * (degree - i):
+            points = (1.0 - t) * points[..., :-1, :] + t * points[..., 1:, :]
+        found.append(points[..., 0, :])
+    return np.stack(found, -2)
+
+
 def curve_points(net: Array, t: ArrayLike) -> Array:
     """Points (..., k, 3) in space."""
     return project(evaluate_curve(net, t))

@@ -107,3 +107,17 @@ def spline_path(points: Array, degree: int, knots: ArrayLike | None = None) -> P
         knots = clamped_knots(len(points), order)
     pieces = curve_to_bezier(knots, points, order)
     return Path(pieces.nets, pieces.intervals)
+
+
+def hermite(table: Array, fraction: ArrayLike) -> Array:
+    """The parameters at fractions of the length, by cubic Hermite interpolation of a Path's table.
+
+    Twin: parameter_at in shaders/trace.vert.
+    """
+    last = len(table) - 1
+    at = np.clip(np.asarray(fraction, dtype=np.float64), 0.0, 1.0) * last
+    k = np.minimum(at.astype(np.int64), last - 1)
+    x, step = at - k, 1.0 / last
+    (u0, d0), (u1, d1) = table[k].T, table[k + 1].T
+    bent = step * x * (1.0 - x) * ((1.0 - x) * d0 - x * d1)
+    return np.asarray(u0 + x * x * (3.0 - 2.0 * x) * (u1 - u0) + bent)

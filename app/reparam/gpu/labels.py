@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import importlib.util
 from dataclasses import dataclass
 from functools import lru_cache
-from pathlib import Path
 
 import moderngl
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
+from ..files.fonts import font_path
 from ..scenes.layers import Color
 from .programs import Programs
 
@@ -102,14 +101,9 @@ class Labels:
 
 @lru_cache(maxsize=32)
 def font(pixels: int, italic: bool) -> ImageFont.FreeTypeFont:
-    """Source Sans Pro, which has the mathematics that Pillow's own face lacks."""
-    spec = importlib.util.find_spec("font_source_sans_pro")
-    assert spec is not None
-    assert spec.origin is not None
-    name = "SourceSansPro-It.ttf" if italic else "SourceSansPro-Regular.ttf"
-    path = Path(spec.origin).parent / "files" / name
+    """The typeface at a size in pixels."""
     # Raqm would kern differently, and is there only where libfribidi is.
-    return ImageFont.truetype(str(path), pixels, layout_engine=ImageFont.Layout.BASIC)
+    return ImageFont.truetype(str(font_path(italic)), pixels, layout_engine=ImageFont.Layout.BASIC)
 
 
 def measure(text: str, pixels: int, italic: bool = False) -> float:

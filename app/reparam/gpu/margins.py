@@ -1,4 +1,5 @@
-"""Titles above spaces and notes beneath, in the margins where neither pan nor zoom moves them.
+"""The words of a picture: labels, caption, and titles above spaces and notes beneath, in the
+margins where neither pan nor zoom moves them.
 
 +-------- title --------+
 |                       |
@@ -12,14 +13,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import Protocol
+
+import numpy as np
 
 from ..scenes import palette
-from .labels import Labels, measure
+from ..scenes.layers import Color, Label
+from .labels import measure
+from .painter import CAPTION_LINE, CAPTION_SIZE, PADDING, Panel
 from .region import NOTE_LINE, TITLE_LINE
-
-if TYPE_CHECKING:
-    from .painter import Panel
 
 TITLE_SIZE = 17.0  # figure units, as all here
 NOTE_SIZE = 15.0
@@ -27,15 +29,54 @@ GAP = 10.0  # between name and value
 DIVIDE = 0.36  # of the region's width: where names end
 
 
-def draw_margins(
-    labels: Labels, panels: Sequence[Panel], size: tuple[int, int], unit: float
+class Words(Protocol):
+    """What sets lines of text: Labels on the GPU, or outlines in a file of vectors."""
+
+    def text(
+        self,
+        text: str,
+        at: tuple[float, float],
+        viewport: tuple[int, int],
+        size: float,
+        color: Color,
+        anchor: tuple[float, float] = (0.5, 0.5),
+        italic: bool = False,
+        widest: float = float("inf"),
+    ) -> None:
+        """One line with `anchor` of its box at `at`; set smaller where wider than `widest`."""
+        ...
+
+
+def draw_label(
+    words: Words, label: Label, panel: Panel, size: tuple[int, int], unit: float
 ) -> None:
+    """A label of a space, where its point is seen."""
+    region = panel.region
+    x, y = panel.camera.pixels(np.array(label.at), region.width, region.height)
+    at = (
+        float(x) + region.left + label.offset[0] * unit,
+        float(y) + region.bottom + label.offset[1] * unit,
+    )
+    words.text(
+        label.text, at, size, label.size * unit, label.color, label.anchor, label.italic,
+        widest=0.96 * region.width,
+    )  # fmt: skip
+
+
+def draw_caption(words: Words, lines: Sequence[str], size: tuple[int, int], unit: float) -> None:
+    """The lines beneath the whole picture."""
+    for i, line in enumerate(reversed(lines)):
+        at = (size[0] / 2, (PADDING + (i + 0.5) * CAPTION_LINE) * unit)
+        words.text(line, at, size, CAPTION_SIZE * unit, palette.INK, widest=0.96 * size[0])
+
+
+def draw_margins(words: Words, panels: Sequence[Panel], size: tuple[int, int], unit: float) -> None:
     """All titles and all notes of a figure; the notes set equally large."""
     for panel in panels:
         region = panel.region
         middle = region.left + region.width / 2
         top = region.bottom + region.height + TITLE_LINE / 2 * unit
-        labels.text(
+        words.text(
             panel.space.title, (middle, top), size, TITLE_SIZE * unit, palette.INK,
             widest=0.96 * region.width,
         )  # fmt: skip
@@ -46,7 +87,7 @@ def draw_margins(
         for row, (name, value) in enumerate(panel.space.notes):
             y = region.bottom - (row + 0.5) * NOTE_LINE * unit
             for text, x, anchor in ((name, divide - GAP * unit / 2, 1.0), (value, divide, 0.0)):
-                labels.text(text, (x, y), size, em, palette.INK, anchor=(anchor, 0.5))
+                words.text(text, (x, y), size, em, palette.INK, anchor=(anchor, 0.5))
 
 
 def note_size(panels: Sequence[Panel], unit: float) -> float:

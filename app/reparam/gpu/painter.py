@@ -247,7 +247,9 @@ class Painter:
         self.ctx.viewport = (0, 0, *target.size)
         for layer in panel.space.layers:
             if isinstance(layer, Label):
-                self._draw_label(layer, panel, target.size, unit)
+                from .margins import draw_label
+
+                draw_label(self.labels, layer, panel, target.size, unit)
         if display.shading != "light" and not plain:
             corner = (region.left, region.bottom + region.height)
             draw_legend(self.labels, panel.space, display.shading, scale, corner, target.size, unit)
@@ -285,18 +287,6 @@ class Painter:
             case _:
                 self.strokes.draw(layer, camera, unit)
 
-    def _draw_label(self, label: Label, panel: Panel, size: tuple[int, int], unit: float) -> None:
-        region = panel.region
-        x, y = panel.camera.pixels(np.array(label.at), region.width, region.height)
-        at = (
-            float(x) + region.left + label.offset[0] * unit,
-            float(y) + region.bottom + label.offset[1] * unit,
-        )
-        self.labels.text(
-            label.text, at, size, label.size * unit, label.color, label.anchor, label.italic,
-            widest=0.96 * region.width,
-        )  # fmt: skip
-
     def _draw_words(
         self, figure: Figure, panels: list[Panel], size: tuple[int, int], unit: float
     ) -> None:
@@ -305,11 +295,10 @@ class Painter:
             from .margins import draw_margins
 
             draw_margins(self.labels, panels, size, unit)
-        for i, line in enumerate(reversed(figure.caption)):
-            at = (size[0] / 2, (PADDING + (i + 0.5) * CAPTION_LINE) * unit)
-            self.labels.text(
-                line, at, size, CAPTION_SIZE * unit, palette.INK, widest=0.96 * size[0]
-            )
+        if figure.caption:
+            from .margins import draw_caption
+
+            draw_caption(self.labels, figure.caption, size, unit)
 
     def _end_frame(self) -> None:
         self.evaluation.sweep()
