@@ -75,36 +75,34 @@ uint count_bits(uint bits) {   // of 16
 void main() {
     vec2 pixel = gl_FragCoord.xy;
     vec4 start = line_point(segment - 1), end = line_point(segment);
-    float nearest = distance_to(start.xy - pixel, end.xy - pixel);
-    float own = nearest;
-    bool is_owner = true;
+    float own = distance_to(start.xy - pixel, end.xy - pixel);
+    bool is_owner = own <= half_width + DIAGONAL;
     ivec2 touching = ivec2(0);   // steps back and ahead to the last segment that meets the pixel
 
+    // Most pixels around a short segment belong to its neighbour, and are left at once.
     int other = segment;
     vec4 point = start;
-    for (int step = 1; step <= window.x; ++step) {
+    for (int step = 1; step <= window.x && is_owner; ++step) {
         other = segment_before(other - 1, point);
         vec4 from = line_point(other - 1), to = line_point(other);
         float distance = distance_to(from.xy - pixel, to.xy - pixel);
-        if (distance < own || (distance == own && other < segment))
-            is_owner = false;
+        is_owner = own < distance || (own == distance && segment <= other);
         if (distance < half_width + DIAGONAL)
             touching.x = step;
         point = from;
     }
     other = segment;
     point = end;
-    for (int step = 1; step <= window.y; ++step) {
+    for (int step = 1; step <= window.y && is_owner; ++step) {
         other = segment_after(other, point);
         vec4 from = line_point(other - 1), to = line_point(other);
         float distance = distance_to(from.xy - pixel, to.xy - pixel);
-        if (distance < own || (distance == own && other < segment))
-            is_owner = false;
+        is_owner = own < distance || (own == distance && segment <= other);
         if (distance < half_width + DIAGONAL)
             touching.y = step;
         point = to;
     }
-    if (!is_owner || own > half_width + DIAGONAL)
+    if (!is_owner)
         discard;
 
     float coverage = 1.0;

@@ -111,6 +111,13 @@ def test_a_line_longer_than_the_window_closes(studio: Studio) -> None:
     compare(found, true_coverage(np.concatenate([points, points[:1]])[None], 1.25))
 
 
+def test_a_line_that_is_all_within_its_own_window_closes(studio: Studio) -> None:
+    angle = np.linspace(0.0, 2.0 * pi, 41)[:-1]
+    points = np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], -1) * 2.7 + [48.2, 47.9, 0.0]
+    found = coverage(studio, Polylines(points, BLACK, 2.5, closed=True))
+    compare(found, true_coverage(np.concatenate([points, points[:1]])[None], 1.25))
+
+
 def test_dots(studio: Studio) -> None:
     at = np.array([[12.2, 13.7, 0.0], [50.0, 50.5, 0.0], [83.9, 20.1, 0.0]])
     for radius in (0.6, 2.0, 7.5):
