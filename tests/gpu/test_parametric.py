@@ -16,6 +16,7 @@ CLOSE = 1e-6
 
 
 def on_gpu(studio: Studio, x: str, y: str = "u", w: float = 0.0, at: np.ndarray = U) -> np.ndarray:
+    studio.ctx.__enter__()  # current, should there be another
     studio.ctx.extra.use()
     names = ("u", "w")
     buffer = studio.painter.evaluation.formulas(parse(x, names), parse(y, names), w, at)
@@ -58,6 +59,7 @@ def test_angles_far_from_zero(studio: Studio) -> None:
 
 
 def traced(studio: Studio, net: np.ndarray, arc: ArcLength, at: np.ndarray) -> np.ndarray:
+    studio.ctx.__enter__()  # current, should there be another
     studio.ctx.extra.use()
     table = arc.table() * [1.0, arc.length]
     buffer = studio.painter.evaluation.trace(net, table, at)

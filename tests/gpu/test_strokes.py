@@ -25,6 +25,7 @@ BLACK = (0.0, 0.0, 0.0)
 
 def coverage(studio: Studio, *layers: Stroked, samples: int = 4) -> Array:
     """How much of each pixel black layers cover, bottom row first; model units are pixels."""
+    studio.ctx.__enter__()  # current, should there be another
     target = Target(studio.ctx, (SIDE, SIDE), samples, studio.painter.capabilities)
     camera = Camera(np.eye(3), np.array([SIDE / 2, SIDE / 2, 0.0]), SIDE / 2, SIDE / 2, 100.0)
     target.framebuffer.use()

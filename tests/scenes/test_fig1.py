@@ -49,3 +49,18 @@ def test_p_cycles_and_the_ant_walks_evenly(capsys: pytest.CaptureFixture[str]) -
     steps = np.diff(np.unwrap(np.array(times) * 2 * np.pi)) / (2 * np.pi)
     assert np.abs(steps - 1 / 3).max() < 1e-12
     assert "change = identity" in capsys.readouterr().out
+
+
+def test_a_formula_typed_in_the_window(capsys: pytest.CaptureFixture[str]) -> None:
+    state = State(open_subject("fig1"), ("vertex",), "vertex")
+    state.ask_for_parameter()
+    state.type_text("change = 2u")
+    state.type_key("ENTER")
+    assert state.subject.value("change") == "square"
+    assert state.notice == "change: expected 2u to be 1 at u = 1, found 2"
+    state.type_key("ESC")
+    state.ask_for_parameter()
+    state.type_text("change = sin(pi u / 2)")
+    state.type_key("ENTER")
+    assert state.subject.value("change") == "sin(pi u / 2)"
+    assert "expected 2u" in capsys.readouterr().out

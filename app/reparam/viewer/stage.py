@@ -163,6 +163,7 @@ class Stage(Views):
         subject = self.subject.assigned([f"{name}={value.strip()}"] if equals else [text])
         if subject.parameters()[name].picture and subject.value(name):
             read_picture(find_picture(subject.value(name)))  # or it raises
+        subject.figure()  # or it raises: the scene may refuse a text
         self._replace(subject)
         self.say(f"{name} = {subject.shown(name)}")
 
