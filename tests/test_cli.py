@@ -167,7 +167,7 @@ BAD_WORDS = {
         for size in ("0x0", "-1", "99999x1", "1x16385", "nonsense", "10", "1e2x3", "5x5x5", "")
     },
     "no such folder": (["fig5", "-o", "none/out.png"], 1, "an existing folder", "none"),
-    "no PNG": (["fig5", "-o", "out.jpg"], 2, "a name ending in .png, found 'out.jpg'", ""),
+    "no PNG": (["fig5", "-o", "out.jpg"], 2, "ending in .png or .svg or .pdf, found 'out.jpg'", ""),
     "output is a folder": (["fig5", "-o", "folder.png"], 1, "a file that may be written", ""),
     "long output": (["fig5", "-o", f"{LONG}.png"], 1, "xxx.png: ", ""),
     "missing file": (["none.bv"], 3, "none.bv: expected a readable .bv file, found no file", ""),
