@@ -28,7 +28,7 @@ run: run-packages $(VENV)/run
 	@$(BIN)/reparam
 
 test: test-packages lint
-	$(BIN)/pytest -n 2
+	$(BIN)/pytest -n 2 --dist worksteal
 
 test-slow: test-packages $(VENV)/test
 	$(BIN)/pytest -m slow

@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from .subject import Subject
 
 LARGEST_SIDE = 16384
-FIGURES_SIZE = (1024, 768)
 ABOUT = (
     "OpenGL's evaluators on today's GPU, and what a change of variables does to what they draw. "
     "Without a command: the window, or without a screen the figures as PNG into ./figures."
@@ -254,7 +253,7 @@ def run_default(options: argparse.Namespace) -> int:
     from .gallery import write_figures
 
     folder = Path("figures")
-    write_figures(folder, FIGURES_SIZE)
+    write_figures(folder, (1024, 768))
     print(f"{missing}; the figures are in {folder.resolve()}")
     return 0
 
