@@ -4,7 +4,7 @@
 # make lint       style and types
 # make parity     our evaluators against what the real OpenGL and GLU computed; CASES=folder: others
 # make bench      our frames against others', as ratios in one run
-# make gallery    the README's pictures
+# make gallery    draws the README's pictures anew
 # make format     brings the code into style
 # make clean      removes the virtual environment and what the tools keep
 # PYTHON=python3.12 chooses another Python than python3.
@@ -45,7 +45,7 @@ bench: run-packages $(VENV)/test
 	$(BIN)/reparam bench
 
 gallery: run-packages $(VENV)/run
-	$(BIN)/python -m reparam.gallery docs/gallery 560x400
+	$(BIN)/python -m reparam.gallery docs/gallery 560x400 $(basename $(notdir $(wildcard docs/gallery/*.png)))
 
 format: $(VENV)/test
 	$(BIN)/ruff check --fix

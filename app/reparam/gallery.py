@@ -1,10 +1,10 @@
-"""The figures as files: `python -m reparam.gallery FOLDER WxH`."""
+"""The figures as files: `python -m reparam.gallery FOLDER WxH [NAME ...]`."""
 
 from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from pathlib import Path
 
 from .files.output import save_picture
@@ -22,11 +22,16 @@ def plates() -> Iterator[tuple[str, Subject]]:
             yield "-".join([name, *words]), subject
 
 
-def write_figures(folder: Path, size: tuple[int, int]) -> list[Path]:
-    """Draw all plates as PNG into the folder, made if missing. Returns the files."""
+def write_figures(folder: Path, size: tuple[int, int], names: Collection[str] = ()) -> list[Path]:
+    """Draw all plates, or those named, as PNG into the folder, made if missing.
+
+    Returns the files.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     studio, written = Studio(), []
     for name, subject in plates():
+        if names and name not in names:
+            continue
         path = folder / f"{name}.png"
         save_picture(studio.draw(subject, size), path)
         written.append(path)
@@ -36,4 +41,4 @@ def write_figures(folder: Path, size: tuple[int, int]) -> list[Path]:
 if __name__ == "__main__":
     from .cli import parse_size
 
-    write_figures(Path(sys.argv[1]), parse_size(sys.argv[2]))
+    write_figures(Path(sys.argv[1]), parse_size(sys.argv[2]), sys.argv[3:])
