@@ -77,7 +77,6 @@ class Window:
         self.folder = folder
         self._at = ("", "")  # of the mouse
         self.environment = {**os.environ, "DISPLAY": screen.name, "PYTHONUNBUFFERED": "1"}
-        others = self._windows()
         command = [sys.executable, "-m", "reparam", "view", "--size", "320x240", *words]
         app = Path(__file__).parents[2] / "app"
         self.environment["PYTHONPATH"] = str(app)
@@ -87,22 +86,24 @@ class Window:
                 command, cwd=folder, env=self.environment, stdout=log, stderr=log
             )
         self.wait_for("H: all keys")
-        self.id = next(iter(self._windows() - others))
+        self.id = self._window()
 
     def xdotool(self, *words: str) -> str:
         result = subprocess.run(
             ["xdotool", *words], env=self.environment, capture_output=True, text=True, check=False
         )
-        assert result.returncode == 0, result.stderr + self.log.read_text()[-5000:]
+        ended = f"the viewer's exit code: {self.process.poll()}\n"
+        assert result.returncode == 0, ended + result.stderr + self.log.read_text()[-5000:]
         return result.stdout
 
-    def _windows(self) -> set[str]:
-        """The windows of all viewers on the screen."""
-        command = ["xdotool", "search", "--name", "^reparam"]
+    def _window(self) -> str:
+        """The id of this process's window; those of viewers before may still be on the screen."""
+        own = ["--all", "--pid", str(self.process.pid), "--name", "^reparam"]
         found = subprocess.run(
-            command, env=self.environment, capture_output=True, text=True, check=False
-        )
-        return set(found.stdout.split())
+            ["xdotool", "search", "--sync", *own],
+            env=self.environment, capture_output=True, text=True, check=False, timeout=SECONDS,
+        )  # fmt: skip
+        return found.stdout.split()[0]
 
     def wait_for(self, text: str, times: int = 1) -> None:
         until = time.monotonic() + SECONDS
