@@ -77,7 +77,7 @@ def test_a_curve_that_is_a_point() -> None:
 
 @pytest.mark.parametrize("name", ["parabola", "S", "near a cusp"])
 def test_the_table_is_enough_to_trace_with(name: str) -> None:
-    """Cubic Hermite interpolation of 256 entries, as the GPU does it."""
+    """Cubic Hermite interpolation of the table, as the GPU does it."""
     curve = arc(name)
     table = curve.table()
     at = np.random.default_rng(1).uniform(0.0, len(table) - 1, 500)

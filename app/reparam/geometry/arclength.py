@@ -21,7 +21,7 @@ HALVINGS = 40  # of a panel, at most
 AGREEMENT = 1e-15  # of the whole length, between a panel and its halves
 ROUNDING = 1e-14  # of a panel's own length: more digits than that a speed may not have
 NEWTON_STEPS = 80
-TABLE = 256  # entries of the table that the GPU traces with
+TABLE = 1024  # entries of the table that the GPU traces with
 
 
 def integrate(speed: Speed, start: ArrayLike, end: ArrayLike) -> Array:

@@ -83,7 +83,7 @@ def trace(
     caption = (
         f"length {path.arc.length:.9f}; {markers} steps of {path.arc.length / markers:.9f}, "
         f"equal to {max(float(spacing), 1e-16):.0e}",
-        "s(u) by Gauss and Legendre, u(s) by Newton; on the GPU a table of 256 u(s)",
+        "s(u) by Gauss and Legendre, u(s) by Newton; on the GPU a table of 1024 u(s)",
     )
     return Figure(spaces, caption)
 
