@@ -74,8 +74,10 @@ $(BIN)/python:
 $(VENV)/run: $(BIN)/python pyproject.toml
 	@$(BIN)/python -m pip install --quiet --only-binary imgui-bundle --editable '.[panel]' || \
 		$(BIN)/python -m pip install --quiet --editable . # where the panel has no wheel
+	@$(BIN)/python -m compileall -q app # or each start compiles, where Python keeps nothing
 	@touch $@
 
 $(VENV)/test: $(BIN)/python pyproject.toml
 	@$(BIN)/python -m pip install --quiet --editable '.[dev]'
+	@$(BIN)/python -m compileall -q app
 	@touch $(VENV)/run $@
