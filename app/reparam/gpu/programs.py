@@ -13,7 +13,6 @@ from ..errors import GraphicsError
 from ..geometry.curvature import REGULAR
 from ..geometry.net import MAX_ORDER
 from ..geometry.normal import SINGULAR_FACTOR, SINGULAR_SINE, SINGULAR_STEP
-from ..geometry.trimming.cells import DIVISION, MARGIN
 from ..scenes.shading import HIGH_COLOR, LOW_COLOR, ZEBRA_BANDS
 from .nets import NET_WIDTH
 
@@ -58,14 +57,16 @@ def stage_source(
         "SINGULAR_SINE": SINGULAR_SINE,
         "SINGULAR_STEP": SINGULAR_STEP,
         "SINGULAR_FACTOR": SINGULAR_FACTOR,
-        "TRIM_DIVISION": DIVISION,
-        "TRIM_MARGIN": MARGIN,
         "REGULAR": REGULAR,
         "ZEBRA_BANDS": float(ZEBRA_BANDS),
         "LOW_COLOR": ", ".join(map(str, LOW_COLOR)),
         "HIGH_COLOR": ", ".join(map(str, HIGH_COLOR)),
         **defines,
     }
+    if "TRIMMED" in defines:
+        from ..geometry.trimming.cells import DIVISION, MARGIN  # a plain picture starts without
+
+        constants |= {"TRIM_DIVISION": DIVISION, "TRIM_MARGIN": MARGIN}
     text = "".join(f"#define {key} {value}\n" for key, value in constants.items())
     return expand_shader(name, texts, VERSIONS[version] + text)
 

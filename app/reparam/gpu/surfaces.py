@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from ..geometry.camera import Camera
 from ..geometry.evaluate import grid_parameters
-from ..geometry.trimming.lookup import CUT, INSIDE
 from ..scenes.layers import Color, Patches
 from ..scenes.shading import Shading
 from .adaptive import HARDWARE_LEVEL, SOFTWARE_CHUNK, Adaptive, Tolerance
@@ -271,6 +270,8 @@ class Surfaces:
         if layer.trim is None:
             yield False, [(tile, everything) for tile in tiles(level)]
             return
+        from ..geometry.trimming.lookup import CUT, INSIDE
+
         pieces = tiles(level, TRIMMED_TILE)
         lines = np.append(np.arange(0, level, TRIMMED_TILE), level) / level
         kept = self._trims.cells(layer, lines).reshape(-1, len(pieces))

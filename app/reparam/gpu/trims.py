@@ -4,20 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import GraphicsError
-from ..geometry.trimming import TrimRegion
-from ..geometry.trimming.lookup import CUT, INSIDE, boxes_kept
-from ..geometry.trimming.packing import PackedTrim
 from ..scenes.layers import Patches
 from .kept import Kept
 from .meshes import triangle_indices
 from .nets import NET_WIDTH, net_texture
 from .programs import Program
+
+if TYPE_CHECKING:
+    from ..geometry.trimming import TrimRegion
+    from ..geometry.trimming.packing import PackedTrim
 
 Array = NDArray[np.float64]
 
@@ -98,6 +100,8 @@ class Trims:
         ub, vb = np.broadcast_arrays(u[:, 1:, None], v[:, None, 1:])
         low = np.stack([np.minimum(ua, ub), np.minimum(va, vb)], -1)
         high = np.stack([np.maximum(ua, ub), np.maximum(va, vb)], -1)
+        from ..geometry.trimming.lookup import boxes_kept
+
         kept = boxes_kept(region.pack(), low.reshape(-1, 2), high.reshape(-1, 2))
         return kept.reshape(low.shape[:-1])
 
@@ -117,6 +121,8 @@ class Trims:
         own = kept if layer.domains is None else kept[patches.start : patches.stop]
         own = np.broadcast_to(own, (len(patches), level, level))
         indices = triangle_indices(level, len(patches))
+        from ..geometry.trimming.lookup import CUT, INSIDE
+
         for which in (INSIDE, CUT):
             chosen = indices[own == which]
             if len(chosen):

@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 
 from ..geometry.evaluate import evaluate, project, sample_surface
 from ..geometry.formula import Formula
-from ..geometry.trimming import TrimRegion
 
 if TYPE_CHECKING:
     from ..evaluators.light import Light
     from ..evaluators.recording import Recording
+    from ..geometry.trimming import TrimRegion
 
 Array = NDArray[np.float64]
 Color = tuple[float, float, float]
