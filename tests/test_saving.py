@@ -88,9 +88,9 @@ def test_defaults_need_no_sections(tmp_path: Path) -> None:
 
 
 def from_words(words: list[str]) -> Subject:
-    from reparam.cli import _subject
+    from reparam.commands.options import chosen_subject
 
-    return _subject(parser().parse_args(words))
+    return chosen_subject(parser().parse_args(words))
 
 
 @pytest.mark.parametrize("kind", ["scene", "surface"])

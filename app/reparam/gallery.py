@@ -39,6 +39,6 @@ def write_figures(folder: Path, size: tuple[int, int], names: Collection[str] = 
 
 
 if __name__ == "__main__":
-    from .cli import parse_size
+    from .commands.options import parse_size
 
     write_figures(Path(sys.argv[1]), parse_size(sys.argv[2]), sys.argv[3:])
