@@ -103,7 +103,7 @@ def test_without_a_command_and_a_screen_the_figures_are_written(
     out: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr("reparam.viewer.screen.screen_missing", lambda: "no screen")
-    some = list(plates())[::8]  # the goldens draw all
+    some = list(plates())[::16]  # the goldens draw all
     monkeypatch.setattr("reparam.gallery.plates", lambda: iter(some))
     assert main([]) == 0
     folder = out.parent / "figures"
@@ -112,11 +112,22 @@ def test_without_a_command_and_a_screen_the_figures_are_written(
     assert stems == {name for name, _ in some}
 
 
-def test_check(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["check"]) == 0
+@pytest.mark.parametrize("name", scene_names())
+def test_check(capsys: pytest.CaptureFixture[str], name: str) -> None:
+    assert main(["check", name]) == 0
     text = capsys.readouterr().out
     assert "FAIL" not in text
-    assert "area of the image of r" in text
+    assert f"ok   {name}" in text or load_scene(name).figure is None
+
+
+def test_all_scenes_are_checked_unless_some_are_named(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    claim = Claim("(1)", "one", 1.0, 1.0, 0.0)
+    for name in scene_names():
+        monkeypatch.setattr(load_scene(name), "_claims", lambda: iter([claim]))
+    assert main(["check"]) == 0
+    assert capsys.readouterr().out.count("ok  ") == len(scene_names())
 
 
 def test_check_json(capsys: pytest.CaptureFixture[str]) -> None:
@@ -210,20 +221,29 @@ BAD_PICTURES = {
 }
 
 
+PLAIN = ("fig5", "--plain", "--size", "64x64")
+
+
+@pytest.fixture(scope="module")
+def checkered(tmp_path_factory: pytest.TempPathFactory) -> np.ndarray:
+    path = tmp_path_factory.mktemp("checkered") / "out.png"
+    assert render(path, *PLAIN) == 0
+    return pixels(path)
+
+
 @pytest.mark.parametrize("name", ["none", "folder", LONG, *BAD_PICTURES])
-def test_bad_picture(out: Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
+def test_bad_picture(
+    out: Path, capsys: pytest.CaptureFixture[str], checkered: np.ndarray, name: str
+) -> None:
     (out.parent / "folder.png").mkdir()
     if name in BAD_PICTURES:
         (out.parent / f"{name}.png").write_bytes(BAD_PICTURES[name])
-    words = ["fig5", "--plain", "--size", "64x64"]
-    assert render(out, *words, "--set", f"image={name}.png") == 0
+    assert render(out, *PLAIN, "--set", f"image={name}.png") == 0
     message = one_line(capsys)
     assert message.startswith(f"reparam: {name}.png: expected a picture")
     assert message.endswith("; the checkerboard stands in\n")
     assert " x " not in name or f"found {name};" in message
-    shown = pixels(out)
-    assert render(out, *words) == 0
-    assert (shown == pixels(out)).all()
+    assert (pixels(out) == checkered).all()
 
 
 @pytest.mark.parametrize("exif", [b"", b"Exif\0\0II*\0\x08\0\0\0\xff\xff"], ids=["large", "EXIF"])

@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 SIZE = 200
-LEVEL = 16
+LEVEL = 10
 MIXED = Path(__file__).parent / "data" / "mixed.bv"  # in space, all kinds
 H = sqrt(0.5)
 ANNULUS = (

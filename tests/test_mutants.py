@@ -16,7 +16,8 @@ QUICK = (
     "tests/test_pictures.py::test_the_rim_is_four_parabolas",
     "tests/test_pictures.py::test_under_r_every_fragment_is_the_checker_at_x_y",
     "tests/test_pictures.py::test_area_covered",
-    "tests/test_cli.py::test_check",
+    "tests/test_cli.py::test_check[fig4]",
+    "tests/test_cli.py::test_check[fig5]",
 )
 CHOICE = "test_check or vertex"  # one evaluator is enough
 MUTANTS = {  # file, what it says, what it shall say

@@ -16,7 +16,7 @@ from reparam.snapshot import Studio
 from reparam.subject import open_subject
 
 STATM = Path("/proc/self/statm")
-FRAMES = 300
+FRAMES = 120
 MIB = 1 << 20
 OBJECTS = [
     "buffer", "vertex_array", "texture", "renderbuffer", "depth_renderbuffer", "framebuffer"
@@ -67,14 +67,14 @@ def test_no_object_outlives_its_use(studio: Studio, made: list[Any], evaluator: 
     studio.evaluator = evaluator
     alive = []
     try:
-        for frame in range(90):
-            studio.draw(subject.changed("morph", frame / 90), (16, 16))
+        for frame in range(50):
+            studio.draw(subject.changed("morph", frame / 50), (16, 16))
             alive.append(sum(not isinstance(o.mglo, moderngl.InvalidObject) for o in made))
     finally:
         studio.evaluator = None
-    assert len(made) > 90 * 10
+    assert len(made) > 50 * 10
     # What is kept for longer may end, and lines are sampled as finely as they bend.
-    assert np.ptp(alive[75:]) < 5, alive
+    assert np.ptp(alive[40:]) < 5, alive
 
 
 def test_a_result_is_made_once_while_it_is_used() -> None:

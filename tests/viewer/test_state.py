@@ -273,7 +273,7 @@ def test_reset_keeps_the_file() -> None:
 def test_random_keys_leave_no_value_out_of_range() -> None:
     state, random = opened(), np.random.default_rng(3)
     rows = [row for row in KEYS if hasattr(State, row.action)]
-    for step in range(600):
+    for step in range(250):
         row = rows[random.integers(len(rows))]
         argument = row.arguments[random.integers(len(row.names))] if row.arguments else None
         getattr(state, row.action)(*(() if argument is None else (argument,)))
