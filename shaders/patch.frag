@@ -40,6 +40,7 @@ uniform ivec2 position_degree;
 const ivec2 position_degree = ivec2(POSITION_DEGREE_U, POSITION_DEGREE_V);
 #endif
 uniform float scale;   // of curvature: where the colour is full
+uniform vec4 sight;    // the eye is in direction (xy + zw * pixel, 1), in its coordinates
 #endif
 #ifdef TRIMMED
 #include "lib/trim.glsl"
@@ -93,7 +94,8 @@ void main() {
         normal = normalize(view_from_model * exact);
     ambient = 0.75;
 #ifdef ZEBRA
-    fragment.rgb *= mix(0.12, 1.0, zebra(normal.z < 0.0 ? -normal : normal));
+    vec3 eye = normalize(vec3(sight.xy + sight.zw * gl_FragCoord.xy, 1.0));
+    fragment.rgb *= mix(0.12, 1.0, zebra(normal, eye));
 #else
 #ifdef GAUSS
     fragment.rgb *= diverging(curvature.x / scale);

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from reparam.geometry.camera import View
 from reparam.geometry.evaluate import evaluate, project
 from reparam.geometry.net import control_net
-from reparam.gpu.painter import UNITS, Panel, arrange
+from reparam.gpu.arrangement import UNITS, Panel, arrange
 from reparam.gpu.targets import Target
 from reparam.scenes import palette
 from reparam.scenes.cursor import POINT

@@ -115,7 +115,7 @@ def test_the_command_line_gives_the_same_subject(
 
 
 def test_a_view_as_text() -> None:
-    for view in (VIEW, TURNED, View(), View(azimuth=0.0)):
+    for view in (VIEW, TURNED, View(), View(azimuth=0.0), View(pivot=(0.1, 2.0, -3.0, 7.5))):
         assert parse_view(view_text("physical", view)) == ("physical", view)
     assert view_text("domain", View(2.0, (0.5, 0.0))) == "domain=2,0.5,0"
     for text in ("physical", "physical=", "physical=1,2", "=1,0,0", "a=1,0,0,5", "a=0,0,0",
@@ -152,6 +152,7 @@ BAD = {
     "unknown space": (GOOD + ',\n "views":\n {"domian": {}}}', ":5: view: expected one of"),
     "bad view": (GOOD + ',\n "views": {"physical": {"zoom": 0}}}', ":4: expected zoom, pan [x, y]"),
     "odd view": (GOOD + ',\n "views": {"physical": {"roll": 0}}}', ":4: expected zoom, pan [x, y]"),
+    "bad pivot": (GOOD + ',\n "views": {"body": {"pivot": [0, 0, 0, -1]}}}', ":4: expected zoom"),
     "bad pan": (GOOD + ',\n "views": {"physical": {"pan": [0]}}}', ":4: expected zoom, pan [x, y]"),
 }  # fmt: skip
 

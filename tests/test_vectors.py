@@ -31,7 +31,7 @@ def nothing_embedded(*_: object) -> NDArray[np.uint8]:
 def drawn(*layers: object) -> list[Shape]:
     """Shapes of layers in a space where a model unit is a pixel, the origin at the lower left."""
     from reparam.geometry.camera import Camera
-    from reparam.gpu.painter import Panel
+    from reparam.gpu.arrangement import Panel
     from reparam.gpu.region import Region
 
     camera = Camera(np.eye(3), np.array([200.0, 150.0, 0.0]), 200.0, 150.0, 10.0)

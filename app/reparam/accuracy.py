@@ -10,7 +10,7 @@ import numpy as np
 
 from .gpu.accuracy import deviations
 from .gpu.adaptive import Tolerance, uniform_plan
-from .gpu.painter import arrange
+from .gpu.arrangement import arrange
 from .scenes.layers import Patches
 from .snapshot import Studio
 from .subject import Subject
@@ -58,7 +58,9 @@ def measure(studio: Studio, subject: Subject, size: tuple[int, int]) -> Iterator
     """Each Patches layer of the subject, framed as `--plain` does, by the studio's evaluator, or
     by each that there is."""
     painter, display = studio.painter, subject.display
-    panel = arrange(subject.figure().plain(), size, subject.views, True, False)[0]
+    panel = arrange(
+        subject.figure().plain(), size, subject.views, True, False, display.perspective
+    )[0]
     if studio.evaluator:
         evaluators: tuple[str, ...] = (painter.capabilities.evaluator(studio.evaluator),)
     else:

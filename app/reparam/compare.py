@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from .errors import UsageError
-from .gpu.painter import extent
+from .gpu.arrangement import extent
 from .scenes.layers import Figure
 from .subject import Subject
 

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .compare import agree, blends_by_value, sides
+from .gpu.arrangement import UNITS, Panel
 from .gpu.comparison import Split
-from .gpu.painter import UNITS, Painter, Panel
+from .gpu.painter import Painter
 from .gpu.targets import Target
 from .scenes.layers import Figure
 from .subject import Subject, open_subject

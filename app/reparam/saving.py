@@ -18,7 +18,7 @@ from .files.saved import FORMAT, Saved, read_saved, write_saved
 from .geometry.camera import View, check_view
 from .subject import DISPLAY, Subject
 
-VIEW_TEXT = "SPACE=ZOOM,X,Y[,AZIMUTH,ELEVATION]"
+VIEW_TEXT = "SPACE=ZOOM,X,Y[,AZIMUTH,ELEVATION[,PIVOT_X,PIVOT_Y,PIVOT_Z,DISTANCE]]"
 
 
 def differences(subject: Subject) -> dict[str, Any]:
@@ -94,10 +94,11 @@ def parse_view(text: str) -> tuple[str, View]:
     name, _, numbers = text.partition("=")
     try:
         values = [float(number) for number in numbers.split(",")]
-        if len(values) not in (3, 5) or not name:
+        if len(values) not in (3, 5, 9) or not name:
             raise ValueError("as many numbers")
-        angles = dict(zip(("azimuth", "elevation"), values[3:], strict=False))
-        return name, check_view(View(values[0], (values[1], values[2]), **angles))
+        angles = dict(zip(("azimuth", "elevation"), values[3:5], strict=False))
+        pan, pivot = (values[1], values[2]), tuple(values[5:])
+        return name, check_view(View(values[0], pan, pivot=pivot, **angles))
     except ValueError:
         raise UsageError(f"--view: expected {VIEW_TEXT}, found {text!r}") from None
 
@@ -105,8 +106,8 @@ def parse_view(text: str) -> tuple[str, View]:
 def view_text(name: str, view: View) -> str:
     """The text that `parse_view` takes for a view, bit for bit."""
     numbers = [view.zoom, *view.pan]
-    if (view.azimuth, view.elevation) != (View.azimuth, View.elevation):
-        numbers += [view.azimuth, view.elevation]
+    if (view.azimuth, view.elevation, view.pivot) != (View.azimuth, View.elevation, ()):
+        numbers += [view.azimuth, view.elevation, *view.pivot]
     return f"{name}=" + ",".join(f"{number!r}".removesuffix(".0") for number in numbers)
 
 
@@ -133,8 +134,10 @@ def _view(saved: Saved, name: str, content: Any) -> View:
         if not isinstance(content, dict) or not content.keys() <= asdict(View()).keys():
             raise ValueError
         x, y = map(float, content.get("pan", (0.0, 0.0)))
-        numbers = {key: float(value) for key, value in content.items() if key != "pan"}
-        return check_view(View(**numbers, pan=(x, y)))
+        pivot = tuple(map(float, content.get("pivot", ())))
+        places = ("pan", "pivot")
+        numbers = {key: float(value) for key, value in content.items() if key not in places}
+        return check_view(View(**numbers, pan=(x, y), pivot=pivot))
     except (TypeError, ValueError):
-        expected = "expected zoom, pan [x, y], azimuth and elevation"
+        expected = "expected zoom, pan [x, y], azimuth, elevation, pivot [x, y, z, distance]"
         raise saved.error(name, f"{expected}, found {content!r}") from None

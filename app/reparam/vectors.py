@@ -18,8 +18,8 @@ from .geometry.bernstein import bernstein
 from .geometry.curve import curve_derivatives, restrict
 from .geometry.evaluate import project
 from .geometry.paths import hermite
+from .gpu.arrangement import UNITS, Panel, arrange
 from .gpu.margins import draw_caption, draw_label, draw_margins
-from .gpu.painter import UNITS, Panel, arrange
 from .gpu.polylines import curve_links, net_legs
 from .gpu.strokes import ARROW_SIZE, HANDLE_RINGS
 from .scenes import palette
@@ -55,7 +55,7 @@ MOST_PIECES = 1024
 def draw_vectors(subject: Subject, size: tuple[int, int], draw: Draw) -> Drawing:
     """The subject's figure as a drawing of that size; `draw` makes the pictures to embed."""
     figure, display = subject.figure(), subject.display
-    panels = arrange(figure, size, subject.views, False, display.net)
+    panels = arrange(figure, size, subject.views, False, display.net, display.perspective)
     unit = min(size) / UNITS
     picture = _Embedded(figure, size, draw)
     groups = []

@@ -2,14 +2,15 @@
 
 // Bright and dark bands stand upright around the eye and are mirrored in the surface; their edges
 // are reflection lines, kinked where a tangent plane jumps, broken where a curvature does.
-// `normal` is in the eye's coordinates; the result is 1 in a bright band, 0 in a dark one, and
-// in between in the pixels that hold both.
-float zebra_wave(vec3 normal) {
-    return sin(3.14159265 * ZEBRA_BANDS * 2.0 * normal.z * normal.x);
+// `normal` and the direction `sight` to the eye are unit vectors in the eye's coordinates; the
+// result is 1 in a bright band, 0 in a dark one, and in between in the pixels that hold both.
+float zebra_wave(vec3 normal, vec3 sight) {
+    const float RATE = 3.14159265 * ZEBRA_BANDS;
+    return sin(RATE * 2.0 * dot(normal, sight) * normal.x - RATE * sight.x);
 }
 
-float zebra(vec3 normal) {
-    float wave = zebra_wave(normal);
+float zebra(vec3 normal, vec3 sight) {
+    float wave = zebra_wave(normal, sight);
     return clamp(0.5 + wave / max(fwidth(wave), 1e-6), 0.0, 1.0);
 }
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reparam.gpu.painter import regions
+from reparam.gpu.arrangement import regions
 from reparam.gpu.region import Region
 from reparam.scenes.layers import Space, plane
 

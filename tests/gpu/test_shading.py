@@ -107,6 +107,24 @@ def test_zebra_lines(studio: Studio, target: moderngl.Framebuffer, evaluator: st
     assert (bright == (wave > 0.0))[clear].mean() > 0.999
 
 
+def test_zebra_lines_in_perspective(studio: Studio, target: moderngl.Framebuffer) -> None:
+    """In a plane mirror upright bands around the eye, which sees it at ever other angles."""
+    mirror = control_net([[(-1, -1), (-1, 1)], [(1, -1), (1, 1)]])
+    camera = frame(sample_surface(mirror), SIZE, SIZE, View(3.0, (0.2, 0.0), 0.0, 90.0), True, 70.0)
+    target.use()
+    target.clear()
+    studio.painter.surfaces.draw(Patches(mirror, lit=True), camera, "vertex", 4, "zebra", 1.0)
+    found = np.frombuffer(target.read(components=3, alignment=1), np.uint8)
+    found = found.reshape(SIZE, SIZE, 3)[SIZE // 2, :, 0] / 255.0
+    a, _, c, _ = camera.sight((0, 0, SIZE, SIZE))
+    eye = np.stack([a + c * (np.arange(SIZE) + 0.5), np.zeros(SIZE), np.ones(SIZE)], -1)
+    eye /= np.linalg.norm(eye, axis=-1, keepdims=True)
+    wave = zebra_wave(np.array([0.0, 0.0, 1.0]), eye)
+    clear = np.abs(wave) > 0.1
+    assert ((found > 0.5) == (wave > 0.0))[clear].all()
+    assert np.count_nonzero(np.diff(wave > 0.0)) >= 2
+
+
 @pytest.mark.parametrize("evaluator", EVALUATORS)
 @pytest.mark.parametrize("shading", ["gauss", "mean"])
 def test_a_rational_sphere_has_one_colour(

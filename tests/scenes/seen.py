@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from reparam.gpu.painter import UNITS, arrange
+from reparam.gpu.arrangement import UNITS, arrange
 from reparam.scenes.layers import Color
 from reparam.snapshot import Studio
 from reparam.subject import Subject

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from reparam.geometry.camera import View, frame
-from reparam.gpu.painter import arrange
+from reparam.gpu.arrangement import arrange
 from reparam.scenes.layers import Figure, Handles, Space
 from reparam.subject import open_subject
 from reparam.viewer.hand import Hand, fine, rounded, snap_step
@@ -26,8 +26,9 @@ class Table:
 
     def draw(self) -> None:
         self.hand.steady()
-        figure, net = self.state.subject.figure(), self.state.subject.display.net
-        self.hand.see(arrange(figure, SIZE, self.state.views, False, net))
+        figure, display = self.state.subject.figure(), self.state.subject.display
+        views = self.state.views
+        self.hand.see(arrange(figure, SIZE, views, False, display.net, display.perspective))
 
     def points(self) -> np.ndarray:
         return np.array(self.state.subject.value("points"))
@@ -144,6 +145,20 @@ def test_a_spatial_point_moves_in_the_view_plane() -> None:
         moved = camera.moved(point, pixel, *SIZE)
         assert camera.pixels(moved, *SIZE) == pytest.approx(pixel, abs=1e-9)
         assert (moved - point) @ camera.rotation[2] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_in_perspective_the_picture_stays_while_a_handle_follows_the_mouse() -> None:
+    """Far out, so that the body's box grows, by which the eye was placed."""
+    table = Table("perspective=80", "net=true", scene="fig7")
+    before = table.pixel(0), table.pixel(3)
+    way = np.array([-150.0, 260.0])
+    table.drag(3, (way[0], way[1]))
+    table.draw()
+    np.testing.assert_allclose(table.pixel(0), before[0], atol=1e-6)
+    np.testing.assert_allclose(table.pixel(3), before[1] + way, atol=0.51)
+    table.state.undo()
+    table.draw()
+    np.testing.assert_allclose(table.pixel(3), before[1], atol=1e-9)
 
 
 def test_of_handles_at_one_place_the_nearest_to_the_eye_is_found() -> None:

@@ -17,7 +17,7 @@ from test_panel import Sheet
 
 from reparam.geometry.evaluate import evaluate, project
 from reparam.geometry.inverse import invert
-from reparam.gpu.painter import arrange
+from reparam.gpu.arrangement import arrange
 from reparam.snapshot import Studio
 from reparam.subject import open_subject
 from reparam.viewer.panel_style import WIDTH

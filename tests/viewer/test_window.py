@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from driver import SECONDS, SIZE, Screen, Window, virtual_screen
 
-from reparam.gpu.painter import arrange
+from reparam.gpu.arrangement import arrange
 from reparam.scenes.registry import scene_names
 from reparam.snapshot import Studio
 from reparam.subject import Subject, open_subject

@@ -19,11 +19,12 @@ import numpy as np
 
 from ..scenes import palette
 from ..scenes.layers import Color, Label
+from .arrangement import CAPTION_LINE, PADDING, Panel
 from .labels import measure
-from .painter import CAPTION_LINE, CAPTION_SIZE, PADDING, Panel
 from .region import NOTE_LINE, TITLE_LINE
 
-TITLE_SIZE = 17.0  # figure units, as all here
+CAPTION_SIZE = 17.0  # figure units, as all here
+TITLE_SIZE = 17.0
 NOTE_SIZE = 15.0
 GAP = 10.0  # between name and value
 DIVIDE = 0.36  # of the region's width: where names end

@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
 from functools import cached_property
-from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import moderngl
-import numpy as np
-from numpy.typing import NDArray
 
 from ..errors import GraphicsError
-from ..geometry.camera import Camera, View, frame
-from ..geometry.evaluate import project
+from ..geometry.camera import View
 from ..scenes import palette
 from ..scenes.display import Display
 from ..scenes.layers import (
@@ -27,13 +22,12 @@ from ..scenes.layers import (
     Layer,
     Patches,
     Recorded,
-    Space,
 )
 from .adaptive import Tolerance
+from .arrangement import UNITS, Panel, arrange
 from .context import Capabilities, capabilities
 from .evaluation import Evaluation
 from .programs import Programs
-from .region import Region
 from .shapes import Shapes, draw_legend
 from .surfaces import Fine, Surfaces
 from .targets import Target
@@ -44,89 +38,7 @@ if TYPE_CHECKING:
     from .recordings import Recordings
     from .strokes import Strokes
 
-Array = NDArray[np.float64]
-
-UNITS = 512.0  # figure units along the shorter side of a picture
-CAPTION_SIZE = 17.0
-CAPTION_LINE = 23.0
-PADDING = 10.0
 LIFT = 5e-4  # of normalised depth, between strokes that lie on one another
-
-
-@dataclass(frozen=True)
-class Panel:
-    """A space with where it stands and how it is seen."""
-
-    space: Space
-    region: Region
-    camera: Camera
-
-
-def arrange(
-    figure: Figure, size: tuple[int, int], views: Mapping[str, View], plain: bool, net: bool
-) -> list[Panel]:
-    """The spaces where `regions` puts them, less their margins, above the caption.
-
-    With `net` the control nets must be seen too.
-    """
-    width, height = size
-    unit = min(size) / UNITS
-    foot = 0 if plain else round((len(figure.caption) * CAPTION_LINE + PADDING) * unit)
-    foot = min(foot, height - 1)
-    panels = []
-    whole = regions(figure.spaces, width, height - foot, foot)
-    for space, region in zip(figure.spaces, whole, strict=True):
-        alike = zip(figure.spaces, whole, strict=True)
-        narrowest = min(each.width for other, each in alike if other.width == space.width)
-        region = region.inside(figure.spaces, unit, narrowest)
-        points = extent(space, net)
-        view = views.get(space.name, View())
-        camera = frame(points, region.width, region.height, view, space.spatial)
-        panels.append(Panel(space, region, camera))
-    return panels
-
-
-def regions(spaces: Sequence[Space], width: int, height: int, foot: int) -> list[Region]:
-    """Columns side by side (rows one above another in an upright picture), `foot` from below.
-
-    A space that stands `below` belongs to the column of the one before it. Columns are as wide,
-    and spaces in a column as high, as they ask for in proportion; together they fill the whole.
-    """
-    columns: list[list[Space]] = []
-    for space in spaces:
-        if space.below and columns:
-            columns[-1].append(space)
-        else:
-            columns.append([space])
-    found = []
-    across = width >= height
-    wide = _cuts([column[0].width for column in columns], width if across else height)
-    for column, (start, end) in zip(columns, wide, strict=True):
-        high = _cuts([space.height for space in column], height if across else end - start)
-        for low, up in high:  # both count from the top
-            if across:
-                region = Region(start, foot + height - up, end - start, up - low)
-            else:
-                region = Region(0, foot + height - start - up, width, up - low)
-            found.append(region)
-    return found
-
-
-def _cuts(shares: Sequence[float], length: int) -> list[tuple[int, int]]:
-    """A length cut in proportion: start and end of each part, at least 1 long."""
-    ends = np.cumsum([0.0, *shares]) / sum(shares) * length
-    whole = [round(end) for end in ends]
-    return [(a, max(a + 1, b)) for a, b in pairwise(whole)]
-
-
-def extent(space: Space, net: bool) -> Array:
-    """Points (k, 3) that the space's viewport must show."""
-    points = space.bounds
-    if len(points) == 2:
-        points = np.stack(np.meshgrid(*points.T, indexing="ij"), -1).reshape(-1, 3)
-    nets = [layer.net for layer in space.layers if isinstance(layer, ControlNet) and net]
-    controls = [control[control[..., 3] > 0.0] for control in nets]
-    return np.concatenate([points, *(project(control) for control in controls)])
 
 
 class Painter:
@@ -190,7 +102,7 @@ class Painter:
         """
         chosen = self.capabilities.evaluator(evaluator)
         figure = figure.plain() if plain else figure
-        panels = arrange(figure, target.size, views or {}, plain, display.net)
+        panels = arrange(figure, target.size, views or {}, plain, display.net, display.perspective)
         framebuffer = target.framebuffer
         framebuffer.use()
         self._reset_state()

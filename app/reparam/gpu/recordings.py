@@ -140,7 +140,7 @@ class Recordings:
         """A layer of a figure: triangles by the built-in program, lines and points as strokes."""
         modelview, projection = np.eye(4), camera.clip_from_model()
         modelview[:3, :3] = camera.rotation  # lights stand in eye coordinates
-        projection[:3, :3] = projection[:3, :3] @ camera.rotation.T
+        projection[:, :3] = projection[:, :3] @ camera.rotation.T
         texture = None
         if layer.picture is not None:
             texture = self._painter.surfaces.pictures.use(layer.picture, TEXTURE_UNIT)

@@ -77,8 +77,8 @@ class Screen:
         return self.camera.clip_from_model().tobytes(), self.region
 
     def pixels(self) -> float:
-        """Pixels of a model unit."""
-        return self.region[2] / (2.0 * self.camera.half_width)
+        """Pixels of a model unit, at most."""
+        return self.region[2] / (2.0 * self.camera.half_width) * self.camera.most_enlarged()
 
 
 class Strokes:

@@ -171,7 +171,12 @@ class Surfaces:
         )
         if "SHAPED" in program.defines:
             self._evaluation.texture(layer.net).use(NET_UNIT)
-            program.set(position_net=NET_UNIT, position_degree=orders(layer.net), scale=look.scale)
+            program.set(
+                position_net=NET_UNIT,
+                position_degree=orders(layer.net),
+                scale=look.scale,
+                sight=camera.sight(self._ctx.viewport),
+            )
         if "LIT" in program.defines:
             program.set(view_from_model=camera.rotation.T.astype(np.float32).tobytes())
         if "TEXTURED" in program.defines:

@@ -66,15 +66,15 @@ def patches_of(space: Space) -> Array | None:
     return None if space.map is None else space.map.reshape(-1, *space.map.shape[-3:])
 
 
-def picker(space: Space, rotation: Array) -> Picker:
-    """Finds what lies under a point of the view plane; `rotation` (3, 3) is its camera's.
+def picker(space: Space, plane_from_model: Array) -> Picker:
+    """Finds what lies under a point of the view plane, whose camera has the matrix (4, 4).
 
     Raises ValueError for a space without a map.
     """
     nets = patches_of(space)
     if nets is None:
         raise ValueError(f"{space.name}: expected a space that the parameter square maps to")
-    return Picker(np.concatenate([nets[..., :3] @ rotation.T, nets[..., 3:]], -1))
+    return Picker(nets @ plane_from_model.T)
 
 
 def with_map(figure: Figure) -> Figure:

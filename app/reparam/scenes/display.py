@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated
 
+from ..geometry.camera import WIDEST
 from .cursor import EXPECTED, is_cursor
 from .parameters import Form, Range
 from .shading import Shading
@@ -17,6 +18,9 @@ class Display:
     level: Annotated[int, Range(1, 1024), "tessellation level: steps in u and in v"] = 32
     tolerance: Annotated[
         float, Range(0, 64, 0.5), "pixels that a drawn point may be off; 0: the level decides"
+    ] = 0.0
+    perspective: Annotated[
+        float, Range(0, WIDEST, 10), "field of view of what is spatial, degrees; 0: orthographic"
     ] = 0.0
     shading: Annotated[Shading, "lit surfaces: light, zebra lines, curvature, kinds of patches"] = (
         "light"

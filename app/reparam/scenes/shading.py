@@ -18,9 +18,12 @@ ZEBRA_BANDS = 8
 LOW_COLOR, HIGH_COLOR = palette.ALONG_U, palette.ALONG_V  # blue and vermillion
 
 
-def zebra_wave(normal: Array) -> Array:
-    """Positive in bright bands, negative in dark ones; normals (..., 3) as the eye sees them."""
-    return np.asarray(np.sin(np.pi * ZEBRA_BANDS * 2.0 * normal[..., 2] * normal[..., 0]))
+def zebra_wave(normal: Array, sight: ArrayLike = (0.0, 0.0, 1.0)) -> Array:
+    """Positive in bright bands, negative in dark ones; unit normals and directions to the eye
+    (..., 3), in the eye's coordinates."""
+    sight = np.asarray(sight, dtype=np.float64)
+    mirrored = 2.0 * (normal * sight).sum(-1) * normal[..., 0] - sight[..., 0]
+    return np.asarray(np.sin(np.pi * ZEBRA_BANDS * mirrored))
 
 
 def diverging(value: ArrayLike) -> Array:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from math import ceil, floor
 
+from ..gpu.arrangement import UNITS, Panel
 from ..gpu.labels import measure
-from ..gpu.painter import UNITS, Panel
 from ..scenes.layers import Handles
 from .hand import Grip, Hand, model_units, snap_step
 from .overlay import GROUND, INK, Sheet

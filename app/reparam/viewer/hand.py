@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 from math import ceil, floor, log10
 
 import numpy as np
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 from ..errors import ReparamError, UsageError
 from ..geometry.camera import Camera, view_through
 from ..geometry.net import LARGEST
-from ..gpu.painter import Panel, extent
+from ..gpu.arrangement import Panel, camera
 from ..scenes.layers import Handles
 from .state import State
 
@@ -134,7 +135,7 @@ class Hand:
         region, at = panel.region, layer.at[self.chosen.index]
         pixel = mouse + self._offset - [region.left, region.bottom]
         point = panel.camera.moved(at, pixel, region.width, region.height)
-        unit = model_units(panel)
+        unit = model_units(panel) / float(panel.camera.enlargement(at))
         self.move(self.chosen, rounded(at, point, snap_step(unit, scale) if snap else fine(unit)))
 
     def move(self, grip: Grip, point: Array) -> None:
@@ -219,11 +220,15 @@ class Hand:
         subject = self._state.subject
         for space in subject.figure().spaces:
             if space.name == panel.space.name:
-                size = (panel.region.width, panel.region.height)
+                framed = partial(
+                    camera,
+                    space,
+                    panel.region,
+                    net=subject.display.net,
+                    field_of_view=subject.display.perspective,
+                )
                 view = self._state.view(space.name)
-                seen = extent(space, subject.display.net)
-                kept = view_through(self._camera, seen, *size, view, space.spatial)
-                self._state.keep_view(space.name, kept)
+                self._state.keep_view(space.name, view_through(self._camera, view, framed))
 
 
 def _pixels(panel: Panel, points: Array) -> Array:
@@ -233,7 +238,7 @@ def _pixels(panel: Panel, points: Array) -> Array:
 
 
 def model_units(panel: Panel) -> float:
-    """Model units a pixel."""
+    """Model units a pixel, in the view plane."""
     return 2.0 * panel.camera.half_height / panel.region.height
 
 

@@ -55,6 +55,7 @@ GROUPS: tuple[tuple[str, tuple[Key | Gesture, ...]], ...] = (
             Gesture(("drag",), "move the picture; turn a spatial surface"),
             Gesture(("right drag",), "move a spatial surface"),
             Gesture(("wheel",), "zoom at the mouse"),
+            Key(("O",), "in perspective, or orthographic", "toggle_perspective"),
             Key(("R",), "reset the view; again: the parameters", "reset"),
         ),
     ),

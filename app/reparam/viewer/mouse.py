@@ -6,7 +6,7 @@ from typing import Any
 
 import glfw
 
-from ..gpu.painter import Panel
+from ..gpu.arrangement import Panel
 from ..gpu.region import Region
 from .hand import Hand
 from .pointer import Pointer

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..geometry.inverse import Picker
-from ..gpu.painter import Panel
+from ..gpu.arrangement import Panel
 from ..scenes.cursor import Cursor, patches_of, picker
 from ..scenes.layers import Array
 from .state import State
@@ -18,7 +18,7 @@ class Pointer:
 
     def __init__(self, state: State) -> None:
         self._state = state
-        self._picker: tuple[Array, Array, Picker] | None = None  # of a map, seen by a rotation
+        self._picker: tuple[Array, Array, Picker] | None = None  # of a map, seen from an eye
 
     def point_at(self, panels: Sequence[Panel], x: float, y: float) -> None:
         """The mouse is here, in framebuffer pixels, y up."""
@@ -37,9 +37,9 @@ class Pointer:
         return Cursor(u, v, patch)
 
     def _picker_of(self, panel: Panel) -> Picker:
-        """Boxes of many patches are made once for each map and rotation."""
-        net, rotation, kept = panel.space.map, panel.camera.rotation, self._picker
+        """Boxes of many patches are made once for each map and place of the eye."""
+        net, matrix, kept = panel.space.map, panel.camera.plane_from_model(), self._picker
         assert net is not None
-        if kept is None or kept[0] is not net or not np.array_equal(kept[1], rotation):
-            kept = self._picker = (net, rotation, picker(panel.space, rotation))
+        if kept is None or kept[0] is not net or not np.array_equal(kept[1], matrix):
+            kept = self._picker = (net, matrix, picker(panel.space, matrix))
         return kept[2]

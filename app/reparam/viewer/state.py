@@ -13,6 +13,7 @@ from .stage import Stage, changed_names
 LEVELS = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256)
 TOLERANCES = (0.125, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0)
 HALF_A_PIXEL = 0.5
+FIELD_OF_VIEW = 40.0  # degrees, with key O
 CHECKS = (2, 4, 8, 16, 32)
 GLIDE_SECONDS = 0.7
 BLEND_SECONDS = 3.0
@@ -58,6 +59,10 @@ class State(Stage):
     def toggle_tolerance(self) -> None:
         """As finely as each patch needs in this view, or one level for all."""
         self._tell("tolerance", 0.0 if self.subject.value("tolerance") else HALF_A_PIXEL)
+
+    def toggle_perspective(self) -> None:
+        """What is spatial in perspective, or orthographic."""
+        self._tell("perspective", 0.0 if self.subject.value("perspective") else FIELD_OF_VIEW)
 
     def change_level(self, direction: int) -> None:
         """The next finer or coarser tessellation level, or tolerance if that decides."""

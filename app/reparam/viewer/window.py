@@ -12,9 +12,10 @@ import moderngl
 
 from ..errors import GraphicsError, ReparamError
 from ..frame import draw_subject
+from ..gpu.arrangement import Panel
 from ..gpu.context import create_for_window
 from ..gpu.diagnosis import explain
-from ..gpu.painter import Painter, Panel
+from ..gpu.painter import Painter
 from ..gpu.targets import Target
 from ..scenes import palette
 from ..scenes.layers import Handles

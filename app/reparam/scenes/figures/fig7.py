@@ -40,6 +40,7 @@ Moves = Annotated[Array, Points((None, 5), "net points moved: column, row, dx, d
 @scene(
     "Two torus halves: kept to the last bit where marked, smooth where redesigned",
     figure=7,
+    plates=((), ("perspective=60",)),
 )
 def fig7(
     marked: Marked = DEFAULT_FREE,
