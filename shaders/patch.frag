@@ -10,6 +10,9 @@
 //     ---+---|-------------- v = 1
 //        |   x  inside             picture(o) + d(picture)/d(pixel) * (x - o)
 //
+// A field is told in the colours of a ramp, by g(s,t) or by s alone, with lines where it has equally
+// spaced values; if it is to be EXACT its map is evaluated here instead of being interpolated.
+//
 // A trimmed surface is cut off at pixel centres, or with ANTIALIASED fades into what is behind it
 // by the share of the pixel that stays.
 
@@ -17,30 +20,54 @@
 #include "lib/net.glsl"
 
 uniform vec4 color;
-#ifdef TEXTURED
+#ifdef PICTURE
 uniform sampler2D image;
-uniform float reach;   // of the filter, in pixels: 0 for nearest
+#endif
+#ifdef TEXTURED
 in vec3 image_map;       // homogeneous: a rational map stays linear in (x,y)
 in vec2 parameters;
+#endif
+#ifdef RAMP
+#include "lib/formula.glsl"
+uniform float low, high, contours;
+#else
+uniform float reach;   // of the filter, in pixels: 0 for nearest
 #endif
 #ifdef LIT
 in vec3 view_normal;
 #endif
-#ifdef SHAPED
+#ifdef LOCATED
 #include "lib/evaluate.glsl"
 #include "lib/curvature.glsl"
+#include "lib/distortion.glsl"
 #include "lib/shading.glsl"
 flat in int located_patch;
 in vec2 located_uv;
-uniform mat3 view_from_model;
+#endif
+#if defined(SHAPED) || defined(DISTORTED)
 uniform sampler2D position_net;
+uniform float scale;   // of a value: where the colour is full
 #ifdef GENERIC_DEGREE
 uniform ivec2 position_degree;
 #else
 const ivec2 position_degree = ivec2(POSITION_DEGREE_U, POSITION_DEGREE_V);
 #endif
-uniform float scale;   // of curvature: where the colour is full
+#endif
+#ifdef SHAPED
+uniform mat3 view_from_model;
 uniform vec4 sight;    // the eye is in direction (xy + zw * pixel, 1), in its coordinates
+#endif
+#ifdef DISTORTED
+uniform float middle;  // the value that is white
+#endif
+#ifdef MAPPED
+uniform sampler2D map_net;
+uniform int map_stride;   // 0: one map shared by all patches
+#ifdef GENERIC_DEGREE
+uniform ivec2 map_degree;
+#else
+const ivec2 map_degree = ivec2(MAP_DEGREE_U, MAP_DEGREE_V);
+#endif
 #endif
 #ifdef TRIMMED
 #include "lib/trim.glsl"
@@ -49,7 +76,25 @@ in vec2 trim_parameters;
 
 out vec4 fragment;
 
-#ifdef TEXTURED
+#ifdef RAMP
+vec4 look_up() {
+#ifdef EXACT
+    vec2 near = clamp(located_uv, -0.1, 1.1);   // a pixel on the rim may lie outside
+    vec4 map = evaluate(map_net, located_patch * map_stride, map_degree,
+                        vec4(near.x, 1.0 - near.x, near.y, 1.0 - near.y));
+    vec2 at = map.xy / map.w;
+#else
+    vec2 at = image_map.xy / image_map.z;
+#endif
+    float share = (FIELD(at.x, at.y) - low) / (high - low);
+    vec4 tint = textureLod(image, vec2(mix(0.002, 0.998, clamp(share, 0.0, 1.0)), 0.5), 0.0);
+    float line = share * contours;
+    float away = abs(line - round(line)) / max(fwidth(line), 1e-9);   // pixels
+    if (line > 0.5 && line < contours - 0.5)   // an extreme value would be a blot
+        tint.rgb *= mix(0.45, 1.0, clamp(away, 0.0, 1.0));
+    return tint;
+}
+#elif defined(PICTURE)
 // The shortest way, in pixels, that brings a parameter with this gradient into the patch.
 vec2 way_inside(float parameter, vec2 gradient) {
     float margin = clamp(reach * (abs(gradient.x) + abs(gradient.y)), 1e-5, 0.5);
@@ -78,21 +123,37 @@ vec4 look_up() {
 
 void main() {
     fragment = color;
-#ifdef TEXTURED
+#ifdef PICTURE
     fragment *= look_up();
+#endif
+#ifdef LOCATED
+    vec2 inside = clamp(located_uv, 0.0, 1.0);   // a pixel on the rim may lie outside
+    vec4 uv = vec4(inside.x, 1.0 - inside.x, inside.y, 1.0 - inside.y);
+#endif
+#ifdef DISTORTED
+    vec3 distortion = distortions(position_net, position_degree, map_net, map_stride, map_degree,
+                                  located_patch, uv);
+#if defined(AREA)
+    fragment.rgb *= diverging((distortion.x - middle) / scale);
+#elif defined(STRETCH)
+    fragment.rgb *= diverging((distortion.y - middle) / scale);
+#else
+    fragment.rgb *= diverging((distortion.z - middle) / scale);
+#endif
 #endif
 #ifdef LIT
     // Two-sided, from over the eye's left shoulder.
     vec3 normal = normalize(view_normal);
+#if defined(SHAPED) || defined(DISTORTED)
+    float ambient = 0.75;
+#else
     float ambient = 0.45;
+#endif
 #ifdef SHAPED
-    vec2 at = clamp(located_uv, 0.0, 1.0);   // a pixel on the rim may lie outside
     vec3 exact;
-    vec2 curvature = curvatures(position_net, located_patch, position_degree,
-                                vec4(at.x, 1.0 - at.x, at.y, 1.0 - at.y), exact);
+    vec2 curvature = curvatures(position_net, located_patch, position_degree, uv, exact);
     if (dot(exact, exact) > 0.0)
         normal = normalize(view_from_model * exact);
-    ambient = 0.75;
 #ifdef ZEBRA
     vec3 eye = normalize(vec3(sight.xy + sight.zw * gl_FragCoord.xy, 1.0));
     fragment.rgb *= mix(0.12, 1.0, zebra(normal, eye));

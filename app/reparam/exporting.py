@@ -8,7 +8,7 @@ import numpy as np
 
 from .errors import UsageError
 from .files.models import Attached, Part, write_model
-from .scenes.layers import Figure, Patches, Texture
+from .scenes.layers import Figure, Patches, Ramp, Texture
 from .subject import Subject
 
 
@@ -41,6 +41,11 @@ def _part(layer: Patches, number: int) -> Part:
     return Part(name, nets, layer.color, maps, _attached(texture), layer.trim, domains)
 
 
-def _attached(texture: Texture) -> Attached:
+def _attached(texture: Texture) -> Attached | None:
     picture = texture.picture
+    if isinstance(picture, Ramp):
+        if picture.formula is not None:  # no file of a model holds formulas
+            return None
+        scale = 1.0 / (picture.high - picture.low)
+        return Attached("ramp", scale, -picture.low * scale, True)
     return Attached(picture.source, picture.scale, picture.offset, picture.wrap == "mirror")

@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from .mesh import Topology
 from .net import Array
 from .normal import safe_normalize
-from .partials import partials
 from .surface_spline import SurfaceSpline
 
 Indices = NDArray[np.intp]
@@ -146,24 +145,3 @@ class _Charts:
 
 def _part(mask: NDArray[np.bool_], face: Indices, vertex: Indices, place: Array) -> Entry:
     return face[mask], vertex[mask], place[mask]
-
-
-def stretches(nets: Array, maps: Array, level: int = 8) -> tuple[Array, Array]:
-    """How a texture map of patches lies on them, at the middles of level x level cells each.
-
-    Returns the angles (P, k), degrees, by which the lines s = const and t = const are off a right
-    one, and the areas (P, k) on the surface for one of the texture; NaN where the map has none.
-    `maps` is (m, n, 4), or one for each patch.
-    """
-    middle = (np.arange(level) + 0.5) / level
-    u, v = (grid.ravel() for grid in np.meshgrid(middle, middle, indexing="ij"))
-    p, q = partials(nets, u, v, 1), partials(maps, u, v, 1)
-    p_u, p_v = p[1, 0], p[0, 1]
-    (s_u, t_u), (s_v, t_v) = (np.moveaxis(d[..., :2], -1, 0) for d in (q[1, 0], q[0, 1]))
-    determinant = (s_u * t_v - s_v * t_u)[..., None]
-    determinant = np.where(determinant == 0.0, np.nan, determinant)
-    along_s = (p_u * t_v[..., None] - p_v * t_u[..., None]) / determinant
-    along_t = (p_v * s_u[..., None] - p_u * s_v[..., None]) / determinant
-    cross = np.linalg.norm(np.cross(along_s, along_t), axis=-1)
-    angle = np.degrees(np.arctan2(cross, (along_s * along_t).sum(-1)))
-    return np.abs(90.0 - angle), cross

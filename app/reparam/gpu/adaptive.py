@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import moderngl
@@ -95,7 +95,7 @@ class Adaptive:
         evaluator: str,
         plan: Plan,
         fragment: str,
-        defines: dict[str, int],
+        defines: Mapping[str, int | str],
         set_common: SetCommon,
     ) -> None:
         """Draw as planned, with a fragment shader and the uniforms that `set_common` gives it."""
@@ -110,7 +110,7 @@ class Adaptive:
             assert layer.texture is not None
             nets["TEXTURE_"] = orders(layer.texture.net)
         program = self._programs.get(
-            *stages, defines=defines | degree_defines(**nets) | {"ADAPTIVE": 1}
+            *stages, defines={**degree_defines(**nets), **defines, "ADAPTIVE": 1}
         )
         self._set_nets(program, layer)
         set_common(program)

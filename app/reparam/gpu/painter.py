@@ -23,6 +23,7 @@ from ..scenes.layers import (
     Patches,
     Recorded,
 )
+from ..scenes.shading import DISTORTION, Scale, Shading
 from .adaptive import Tolerance
 from .arrangement import UNITS, Panel, arrange
 from .context import Capabilities, capabilities
@@ -112,7 +113,10 @@ class Painter:
         self.ctx.blend_func = (moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA)
         unit = min(target.size) / UNITS
         for panel in panels:
-            self._draw_space(panel, target, display, chosen, unit, plain)
+            shading = display.shading
+            if shading in DISTORTION and panel.space is not figure.subject:
+                shading = "light"
+            self._draw_space(panel, target, display, shading, chosen, unit, plain)
         if not plain:
             self._draw_words(figure, panels, target.size, unit)
         self._end_frame()
@@ -138,6 +142,7 @@ class Painter:
         panel: Panel,
         target: Target,
         display: Display,
+        shading: Shading,
         evaluator: str,
         unit: float,
         plain: bool,
@@ -148,9 +153,9 @@ class Painter:
         self.ctx.scissor = box
         if panel.space.spatial:
             self.ctx.enable(moderngl.DEPTH_TEST)
-        scale = self.shapes.scale(panel.space, display.shading)
+        scale = self.shapes.scale(panel.space, shading)
         for layer in panel.space.layers:
-            self._draw_layer(layer, panel, display, evaluator, unit, scale)
+            self._draw_layer(layer, panel, display, shading, evaluator, unit, scale)
         self.ctx.disable(moderngl.DEPTH_TEST)
         for layer in panel.space.layers:
             if isinstance(layer, Handles) and display.handles:
@@ -162,18 +167,19 @@ class Painter:
                 from .margins import draw_label
 
                 draw_label(self.labels, layer, panel, target.size, unit)
-        if display.shading != "light" and not plain:
+        if shading != "light" and not plain:
             corner = (region.left, region.bottom + region.height)
-            draw_legend(self.labels, panel.space, display.shading, scale, corner, target.size, unit)
+            draw_legend(self.labels, panel.space, shading, scale, corner, target.size, unit)
 
     def _draw_layer(
         self,
         layer: Layer,
         panel: Panel,
         display: Display,
+        shading: Shading,
         evaluator: str,
         unit: float,
-        scale: float,
+        scale: Scale,
     ) -> None:
         camera = panel.camera
         match layer:
@@ -182,7 +188,7 @@ class Painter:
                 off = display.tolerance
                 fine: Fine = Tolerance(off, viewport) if off else display.level
                 self.surfaces.draw(
-                    layer, camera, evaluator, fine, display.shading, scale,
+                    layer, camera, evaluator, fine, shading, scale,
                     spatial=panel.space.spatial,
                 )  # fmt: skip
                 if display.wireframe:

@@ -11,6 +11,7 @@ import moderngl
 from ..assets import FILE_LINES, ShaderSource, expand_shader, read_shaders
 from ..errors import GraphicsError
 from ..geometry.curvature import REGULAR
+from ..geometry.distortion import FARTHEST
 from ..geometry.net import MAX_ORDER
 from ..geometry.normal import SINGULAR_FACTOR, SINGULAR_SINE, SINGULAR_STEP
 from ..scenes.shading import HIGH_COLOR, LOW_COLOR, ZEBRA_BANDS
@@ -58,6 +59,7 @@ def stage_source(
         "SINGULAR_STEP": SINGULAR_STEP,
         "SINGULAR_FACTOR": SINGULAR_FACTOR,
         "REGULAR": REGULAR,
+        "FARTHEST": FARTHEST,
         "ZEBRA_BANDS": float(ZEBRA_BANDS),
         "LOW_COLOR": ", ".join(map(str, LOW_COLOR)),
         "HIGH_COLOR": ", ".join(map(str, HIGH_COLOR)),

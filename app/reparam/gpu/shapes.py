@@ -1,65 +1,112 @@
-"""Shadings that show shape: the scale of the curvatures in a space, and the legend beside it."""
+"""Shadings that show shape: the scale of their values in a space, and the legend beside it."""
 
 from __future__ import annotations
 
-from functools import partial
 from itertools import pairwise
 
 import numpy as np
 
 from ..geometry.curvature import round_scale, sampled_curvatures
+from ..geometry.distortion import sampled_distortions
 from ..scenes import palette
 from ..scenes.layers import Array, Color, Patches, Space
-from ..scenes.shading import COLUMN, SYMBOLS, Shading, diverging
+from ..scenes.shading import (
+    COLUMN,
+    DISTORTION,
+    SYMBOLS,
+    Scale,
+    Shading,
+    attached_by,
+    diverging,
+    ticks,
+)
 from .kept import Kept
 from .labels import Labels
 
 BAR, STEPS = 110.0, 33  # length of the bar of colours, in figure units, and its pieces
 SWATCH, WORDS, LINE = 9.0, 13.0, 17.0
 INSET = 10.0  # from the corner of the space
+FACTORS = (1.1, 1.2, 1.5, 2.0, 4.0, 8.0, 16.0, 64.0, 256.0, 1024.0)  # at which colours are full
+SAMPLES = 1 << 14  # of a layer, at most, that tell which values occur
 
 
 class Shapes:
-    """Keeps the curvatures of what is drawn."""
+    """Keeps the curvatures and distortions of what is drawn."""
 
     def __init__(self) -> None:
-        self._curvatures: Kept[Array] = Kept(lambda _: None)
+        self._values: Kept[tuple[Array, Array]] = Kept(lambda _: None)  # and what it was made of
 
-    def scale(self, space: Space, shading: Shading) -> float:
-        """The curvature that has the full colour, common to all lit patches of the space."""
-        lit = [layer.net for layer in space.layers if isinstance(layer, Patches) and layer.lit]
-        if shading not in COLUMN or not lit:
-            return 1.0
-        nets = [net if net.ndim == 4 else net[None] for net in lit]
-        values = [
-            self._curvatures.get(net, None, partial(sampled_curvatures, part))
-            for net, part in zip(lit, nets, strict=True)
-        ]
-        return round_scale(np.concatenate(values)[:, COLUMN[shading]])
+    def scale(self, space: Space, shading: Shading) -> Scale:
+        """What is white and what has the full colour, common to all patches of the space."""
+        layers = shaded(space, shading)
+        if shading in COLUMN and layers:
+            values = np.concatenate([self._curvatures(layer.net) for layer in layers])
+            return Scale(0.0, round_scale(values[:, COLUMN[shading]]))
+        if shading in DISTORTION and layers:
+            values = np.concatenate([self._distortions(layer) for layer in layers])
+            return distortion_scale(shading, values[:, DISTORTION[shading]])
+        return Scale()
+
+    def _curvatures(self, net: Array) -> Array:
+        nets = net if net.ndim == 4 else net[None]
+        return self._values.get(net, None, lambda: (net, sampled_curvatures(nets)))[1]
+
+    def _distortions(self, layer: Patches) -> Array:
+        maps = attached_by(layer)
+        nets = layer.net if layer.net.ndim == 4 else layer.net[None]
+        samples = int(np.clip((SAMPLES / len(nets)) ** 0.5, 2, 16))
+
+        def made() -> tuple[Array, Array]:
+            return maps, sampled_distortions(nets, maps, samples).reshape(-1, 3)
+
+        return self._values.get(layer.net, id(maps), made)[1]
 
     def sweep(self) -> None:
         """End of a frame."""
-        self._curvatures.sweep()
+        self._values.sweep()
+
+
+def shaded(space: Space, shading: Shading) -> list[Patches]:
+    """The layers that a shading is for: those that are lit, or all where textures are looked at."""
+    layers = [layer for layer in space.layers if isinstance(layer, Patches)]
+    return [layer for layer in layers if layer.lit or shading in DISTORTION]
+
+
+def distortion_scale(shading: Shading, values: Array) -> Scale:
+    """The median area is white, and no stretch, and the right angle; 19 of 20 values have not yet
+    the full colour."""
+    values = values[np.isfinite(values)]
+    if not len(values):
+        return Scale()
+    if shading == "angle":
+        return Scale(0.0, min(round_scale(values), 90.0))
+    middle = float(np.median(values)) if shading == "area" else 0.0
+    most = float(np.quantile(np.abs(values - middle), 0.95))
+    logs = np.log2(FACTORS)
+    return Scale(
+        middle, float(logs[np.searchsorted(logs[:-1], most - 1e-9)]) if most > 1e-6 else 1.0
+    )
 
 
 def draw_legend(
     labels: Labels,
     space: Space,
     shading: Shading,
-    scale: float,
+    scale: Scale,
     corner: tuple[float, float],
     size: tuple[int, int],
     unit: float,
 ) -> None:
     """What the colours of a space mean, below its upper left `corner` (pixels)."""
-    lit = [layer for layer in space.layers if isinstance(layer, Patches) and layer.lit]
+    layers = shaded(space, shading)
     left, top = corner[0] + INSET * unit, corner[1] - INSET * unit
-    if not lit:
+    if not layers:
         return
     if shading in SYMBOLS:
-        _draw_bar(labels, SYMBOLS[shading], scale, left, top, size, unit)
+        words = SYMBOLS[shading]
+        _draw_bar(labels, words, [*ticks(shading, scale)], left, top, size, unit)
     elif shading == "kind":
-        kinds = dict.fromkeys(layer.kind for layer in lit if layer.kind.words)
+        kinds = dict.fromkeys(layer.kind for layer in layers if layer.kind.words)
         for number, kind in enumerate(kinds):
             y = top - (number + 0.5) * LINE * unit
             _box(labels, left, y, SWATCH * unit, kind.color, size, SWATCH * unit)
@@ -70,20 +117,22 @@ def draw_legend(
 def _draw_bar(
     labels: Labels,
     words: str,
-    scale: float,
+    marks: list[tuple[float, str]],
     left: float,
     top: float,
     size: tuple[int, int],
     unit: float,
 ) -> None:
+    """The colours from the first mark's value to the last one's."""
     labels.text(words, (left, top - LINE / 2 * unit), size, WORDS * unit, palette.INK, (0.0, 0.5))
     y = top - 1.5 * LINE * unit
+    first, last = marks[0][0], marks[-1][0]
     edges = np.round(np.linspace(left, left + BAR * unit, STEPS + 1))
-    for k, (start, end) in enumerate(pairwise(edges)):
-        red, green, blue = diverging(2.0 * k / (STEPS - 1) - 1.0)
+    for value, (start, end) in zip(np.linspace(first, last, STEPS), pairwise(edges), strict=True):
+        red, green, blue = diverging(value)
         _box(labels, start, y, SWATCH * unit, (red, green, blue), size, end - start)
-    for value, at in ((-scale, 0.0), (0.0, 0.5), (scale, 1.0)):
-        text = f"{value:g}".replace("-", "−")
+    for value, text in marks:
+        at = (value - first) / (last - first)
         place = (left + at * BAR * unit, y - LINE * unit)
         labels.text(text, place, size, WORDS * unit, palette.INK, (at, 0.5))
 

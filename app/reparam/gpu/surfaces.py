@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 
 from ..geometry.camera import Camera
 from ..geometry.evaluate import grid_parameters
-from ..scenes.layers import Color, Patches
-from ..scenes.shading import Shading
+from ..scenes.layers import Color, Patches, Picture, Ramp, Texture
+from ..scenes.shading import DISTORTION, PLAIN_SCALE, Scale, Shading, attached_by
 from .adaptive import HARDWARE_LEVEL, SOFTWARE_CHUNK, Adaptive, Tolerance
 from .context import Capabilities
 from .evaluation import FLOATS, Evaluation, orders, patch_count
+from .fineness import MAP_UNIT
 from .kept import Kept
 from .meshes import triangle_indices
 from .nets import NET_UNIT
@@ -29,6 +30,8 @@ Array = NDArray[np.float64]
 BATCH_VERTICES = 1 << 18  # evaluated and drawn at a time
 KEPT_BYTES = 1 << 29  # a layer that needs more is evaluated anew for each frame
 SHAPED = ("zebra", "gauss", "mean")  # told by the patch's own derivatives, fragment by fragment
+WHITE = (1.0, 1.0, 1.0)
+RAMP = Picture("ramp", wrap="mirror")
 
 Fine = int | Tolerance  # steps in u and in v of every patch, or what a drawn point may be off
 
@@ -51,12 +54,16 @@ class Batch:
 
 @dataclass(frozen=True)
 class Look:
-    """One colour, one shading; `bare` without picture and light."""
+    """One colour, one shading; `bare` without picture and light.
+
+    `map` is what fragments evaluate beside the position: what a texture is attached by, or a field.
+    """
 
     color: Color
     shading: Shading = "light"
-    scale: float = 1.0
+    scale: Scale = PLAIN_SCALE
     bare: bool = False
+    map: Array | None = None
 
 
 class Surfaces:
@@ -86,20 +93,26 @@ class Surfaces:
         evaluator: str,
         fine: Fine,
         shading: Shading = "light",
-        scale: float = 1.0,
+        scale: Scale = PLAIN_SCALE,
         *,
         spatial: bool = False,
     ) -> None:
-        """The layer as its picture, colour and light say; if lit, as `shading` says instead.
+        """The layer as its picture, colour and light say; if lit, as `shading` says instead, and if
+        that is about textures, lit or not.
 
-        `scale` is the curvature that has the full colour. The edge of a trimmed surface is
-        blended with what is behind it; in space that may not be drawn yet, so there the pixel's
-        samples are shared out.
+        `scale` says which value is white and which has the full colour. The edge of a trimmed
+        surface is blended with what is behind it; in space that may not be drawn yet, so there the
+        pixel's samples are shared out.
         """
         look = Look(layer.color)
-        if layer.lit and shading != "light":
-            color = layer.kind.color if shading == "kind" else (1.0, 1.0, 1.0)
+        if shading in DISTORTION:
+            look = Look(WHITE, shading, scale, map=attached_by(layer))
+            layer = replace(layer, texture=None)
+        elif layer.lit and shading != "light":
+            color = layer.kind.color if shading == "kind" else WHITE
             layer, look = replace(layer, texture=None), Look(color, shading, scale)
+        elif layer.texture is not None and layer.texture.exact:
+            look = Look(layer.color, map=layer.texture.net)
         share_samples = layer.trim is not None and spatial and self._ctx.fbo.samples > 1
         if share_samples:
             self._ctx.enable_direct(SAMPLE_ALPHA_TO_COVERAGE)
@@ -146,15 +159,18 @@ class Surfaces:
         """Drop what older shaders evaluated."""
         self._batches.clear()
 
-    def _defines(self, layer: Patches, look: Look) -> dict[str, int]:
-        defines: dict[str, int] = {}
+    def _defines(self, layer: Patches, look: Look) -> dict[str, int | str]:
+        defines: dict[str, int | str] = {}
         if look.shading in SHAPED:
             defines |= {"SHAPED": 1, "LOCATED": 1, look.shading.upper(): 1}
             defines |= degree_defines(POSITION_=orders(layer.net))
+        if look.map is not None:
+            defines |= {"MAPPED": 1, "LOCATED": 1}
+            if look.shading in DISTORTION:
+                defines |= {"DISTORTED": 1, look.shading.upper(): 1}
+            defines |= degree_defines(POSITION_=orders(layer.net), MAP_=orders(look.map))
         if layer.texture is not None and not look.bare:
-            defines["TEXTURED"] = 1
-            if layer.texture.picture.wrap == "mirror":
-                defines["MIRRORED"] = 1
+            defines |= _picture_defines(layer.texture)
         if layer.lit and not look.bare:
             defines["LIT"] = 1
         if layer.trim is not None:
@@ -174,26 +190,51 @@ class Surfaces:
             program.set(
                 position_net=NET_UNIT,
                 position_degree=orders(layer.net),
-                scale=look.scale,
+                scale=look.scale.full,
                 sight=camera.sight(self._ctx.viewport),
             )
+        if "MAPPED" in program.defines:
+            self._set_map(program, layer, look)
         if "LIT" in program.defines:
             program.set(view_from_model=camera.rotation.T.astype(np.float32).tobytes())
-        if "TEXTURED" in program.defines:
+        if "PICTURE" in program.defines:
             assert layer.texture is not None
-            picture = layer.texture.picture
-            self.pictures.use(picture, unit=2)
-            scale, offset = picture.scale, picture.offset
-            reach = 0.75 if picture.filter == "smooth" else 0.0
-            program.set(image=2, image_from_map=(scale, scale, offset, offset), reach=reach)
+            self._set_picture(program, layer.texture)
         if "TRIMMED" in program.defines:
             self._trims.bind(program, layer, unit=3)
+
+    def _set_picture(self, program: Program, texture: Texture) -> None:
+        picture = texture.picture
+        if isinstance(picture, Ramp):
+            self.pictures.use(RAMP, unit=2)
+            program.set(image=2, low=picture.low, high=picture.high)
+            program.set(contours=float(picture.contours))
+            if "TEXTURED" in program.defines:
+                program.set(image_from_map=(1.0, 1.0, 0.0, 0.0))
+            return
+        self.pictures.use(picture, unit=2)
+        scale, offset = picture.scale, picture.offset
+        reach = 0.75 if picture.filter == "smooth" else 0.0
+        program.set(image=2, image_from_map=(scale, scale, offset, offset), reach=reach)
+
+    def _set_map(self, program: Program, layer: Patches, look: Look) -> None:
+        assert look.map is not None
+        self._evaluation.texture(look.map).use(MAP_UNIT)
+        program.set(
+            map_net=MAP_UNIT,
+            map_degree=orders(look.map),
+            map_stride=0 if patch_count(look.map) == 1 else 1,
+        )
+        if "DISTORTED" in program.defines:
+            self._evaluation.texture(layer.net).use(NET_UNIT)
+            program.set(position_net=NET_UNIT, position_degree=orders(layer.net))
+            program.set(middle=look.scale.middle, scale=look.scale.full)
 
     # The vertex evaluator -------------------------------------------------------------------
 
     def _draw_meshes(self, layer: Patches, camera: Camera, level: int, look: Look) -> None:
         defines = self._defines(layer, look)
-        texture_net = layer.texture.net if layer.texture and not look.bare else None
+        texture_net = layer.texture.net if layer.texture and "TEXTURED" in defines else None
         positions = self._evaluated(layer.net, level, patch_count(layer.net), layer.lit)
         maps = (
             self._evaluated(texture_net, level, patch_count(layer.net), False)
@@ -262,7 +303,7 @@ class Surfaces:
                 "patch.tesc",
                 "patch.tese",
                 "patch.frag",
-                defines=decided(defines, trimmed) | degree_defines(**nets),
+                defines={**degree_defines(**nets), **decided(defines, trimmed)},
             )
             self._set_nets(program, layer, level)
             self.set_common(program, layer, camera, look)
@@ -316,12 +357,22 @@ class Surfaces:
             numbers.release()
 
 
+def _picture_defines(texture: Texture) -> dict[str, int | str]:
+    picture = texture.picture
+    if isinstance(picture, Ramp):
+        formula = picture.formula.glsl() if picture.formula else "x"
+        where = "EXACT" if texture.exact else "TEXTURED"
+        return {"PICTURE": 1, "RAMP": 1, "FIELD(x, y)": formula, where: 1}
+    mirrored = {"MIRRORED": 1} if picture.wrap == "mirror" else {}
+    return {"PICTURE": 1, "TEXTURED": 1, **mirrored}
+
+
 def _release(batches: list[Batch]) -> None:
     for batch in batches:
         batch.vertices.release()
 
 
-def decided(defines: dict[str, int], trimmed: bool) -> dict[str, int]:
+def decided(defines: dict[str, int | str], trimmed: bool) -> dict[str, int | str]:
     """The defines for what is trimmed, or for a part that no curve comes near."""
     return {k: v for k, v in defines.items() if trimmed or k not in ("TRIMMED", "ANTIALIASED")}
 

@@ -22,9 +22,11 @@ class Display:
     perspective: Annotated[
         float, Range(0, WIDEST, 10), "field of view of what is spatial, degrees; 0: orthographic"
     ] = 0.0
-    shading: Annotated[Shading, "lit surfaces: light, zebra lines, curvature, kinds of patches"] = (
-        "light"
-    )
+    shading: Annotated[
+        Shading,
+        "lit surfaces: light, zebra lines, curvature, kinds of patches; or how the texture lies: "
+        "area, stretch and angle",
+    ] = "light"
     wireframe: Annotated[bool, "the triangles' edges over the surface"] = False
     net: Annotated[bool, "the control net"] = False
     handles: Annotated[bool, "the points that a hand can drag in the window"] = False

@@ -7,14 +7,18 @@ same object comes back.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING, Any, Literal
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.evaluate import evaluate, project, sample_surface
 from ..geometry.formula import Formula
+from .textures import Picture as Picture
+from .textures import Ramp as Ramp
+from .textures import Texture as Texture
+from .textures import freeze
 
 if TYPE_CHECKING:
     from ..evaluators.light import Light
@@ -25,39 +29,6 @@ Array = NDArray[np.float64]
 Color = tuple[float, float, float]
 
 INK: Color = (0.13, 0.13, 0.13)
-
-
-def _freeze(layer: object) -> None:
-    for field in fields(layer):  # type: ignore[arg-type]
-        value = getattr(layer, field.name)
-        if isinstance(value, np.ndarray):
-            value.setflags(write=False)
-
-
-@dataclass(frozen=True)
-class Picture:
-    """What a texture map looks up, and where: (s, t) * scale + offset, the whole picture being
-    [0,1]^2 with (0,0) at its lower left."""
-
-    source: str = "checkerboard"  # a name in textures/, or a file
-    scale: float = 0.5
-    offset: float = 0.5
-    wrap: Literal["repeat", "mirror"] = "repeat"
-    filter: Literal["smooth", "nearest"] = "smooth"
-
-
-@dataclass(frozen=True)
-class Texture:
-    """A second net, (m, n, 4) for all patches or (patches, m, n, 4), with the picture it looks up.
-
-    GL_MAP2_TEXTURE_COORD: evaluated at the vertices by the same evaluator as the position.
-    """
-
-    net: Array
-    picture: Picture
-
-    def __post_init__(self) -> None:
-        _freeze(self)
 
 
 @dataclass(frozen=True)
@@ -88,7 +59,7 @@ class Patches:
         count = self.net.shape[0] if self.net.ndim == 4 else 1
         if self.domains is not None and self.domains.shape != (count, 4):
             raise ValueError(f"expected domains ({count}, 4), found {self.domains.shape}")
-        _freeze(self)
+        freeze(self)
 
 
 @dataclass(frozen=True)
@@ -105,7 +76,7 @@ class IsoLines:
     lift: int = 0  # of strokes in one place in space the higher one is seen
 
     def __post_init__(self) -> None:
-        _freeze(self)
+        freeze(self)
 
 
 @dataclass(frozen=True)
@@ -123,7 +94,7 @@ class Curves:
     arrow: bool = False
 
     def __post_init__(self) -> None:
-        _freeze(self)
+        freeze(self)
 
 
 @dataclass(frozen=True)
@@ -137,7 +108,7 @@ class Polylines:
     arrow: bool = False
 
     def __post_init__(self) -> None:
-        _freeze(self)
+        freeze(self)
 
 
 @dataclass(frozen=True)
@@ -150,7 +121,7 @@ class Dots:
     lift: int = 0
 
     def __post_init__(self) -> None:
-        _freeze(self)
+        freeze(self)
 
 
 @dataclass(frozen=True)
@@ -169,7 +140,7 @@ class Parametric:
     radius: float = 0.0
 
     def __post_init__(self) -> None:
-        _freeze(self)
+        freeze(self)
 
 
 @dataclass(frozen=True)
@@ -187,7 +158,7 @@ class Traced:
     radius: float = 3.0
 
     def __post_init__(self) -> None:
-        _freeze(self)
+        freeze(self)
 
 
 @dataclass(frozen=True)
@@ -200,7 +171,7 @@ class ControlNet:
     dot: float = 3.0
 
     def __post_init__(self) -> None:
-        _freeze(self)
+        freeze(self)
 
 
 @dataclass(frozen=True)
@@ -252,7 +223,7 @@ class Handles:
     click: Click | None = None
 
     def __post_init__(self) -> None:
-        _freeze(self)
+        freeze(self)
 
     def name(self, index: int) -> str:
         """What a point is called."""
@@ -280,7 +251,7 @@ class Space:
     domains: Array | None = None  # the patches' own, where `map` shows them as their surface has
 
     def __post_init__(self) -> None:
-        _freeze(self)
+        freeze(self)
 
 
 @dataclass(frozen=True)
@@ -293,13 +264,18 @@ class Figure:
     spaces: tuple[Space, ...]
     caption: tuple[str, ...] = ()
 
+    @property
+    def subject(self) -> Space:
+        """The space that shows what the picture is about."""
+        subjects = [s for s in self.spaces if not s.name.startswith(("domain", "plot"))]
+        return (subjects or list(self.spaces))[-1]
+
     def plain(self) -> Figure:
         """The subject's patches alone, framed by themselves: no labels, nets, lines or caption.
 
         A subject without patches keeps its curves, lines, dots and recordings, and its bounds.
         """
-        subjects = [s for s in self.spaces if not s.name.startswith(("domain", "plot"))]
-        subject = (subjects or self.spaces)[-1]
+        subject = self.subject
         patches = tuple(layer for layer in subject.layers if isinstance(layer, Patches))
         if not patches:
             lines = (Curves, Polylines, Dots, Parametric, Traced, Recorded)

@@ -21,7 +21,7 @@ from ..geometry.net import bounding_box, control_net, raise_degree
 from ..geometry.planar_maps import DOMAIN
 from . import palette
 from .directions import directions
-from .layers import Array, Color, Figure, IsoLines, Layer, Patches, Space, Texture, plane
+from .layers import Array, Color, Figure, IsoLines, Layer, Patches, Ramp, Space, Texture, plane
 
 LINES = 8  # pieces between the iso-lines
 FADED: Color = (0.78, 0.78, 0.78)  # what no point of the patch shows
@@ -38,13 +38,15 @@ def can_link(figure: Figure) -> bool:
 def linked(figure: Figure) -> Figure:
     """The figure's subject with its domain and texture beside it; itself if it has no patches.
 
-    Layers of patches count as one, in their order; their texture is shown if all have one.
+    Layers of patches count as one, in their order; their texture is shown if all have one and it
+    is a plane.
     """
     patches = _subject_patches(figure)
     if not patches:
         return figure
     subject = figure.spaces[-1]
     textures = [layer.texture for layer in patches if layer.texture is not None]
+    textures = [t for t in textures if not (isinstance(t.picture, Ramp) and t.picture.scalar)]
     spaces = [domain_space(patches)]
     if len(textures) == len(patches):
         counts = [len(each.net) if each.net.ndim == 4 else 1 for each in patches]

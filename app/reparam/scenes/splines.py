@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from ..geometry.bernstein import bernstein
 from ..geometry.body import Body, body, face_patches
+from ..geometry.distortion import sampled_distortions
 from ..geometry.evaluate import project
-from ..geometry.layout import layout_nets, stretches
+from ..geometry.layout import layout_nets
 from ..geometry.mesh import Mesh, Topology
 from ..geometry.meshes import MESHES
 from ..geometry.surface_spline import SurfaceSpline, edge_ratios, surface_spline
@@ -264,7 +265,8 @@ def edge_handles(control: Mesh, ratios: Array) -> Handles:
 def distortion(nets: Array, maps: Array) -> tuple[float, float, float, float]:
     """Largest and mean deviation from right angles (degrees); least and largest area, the median
     being 1."""
-    angles, areas = stretches(nets, maps, 4 if len(nets) < MANY else 2)
+    found = sampled_distortions(nets, maps, 4 if len(nets) < MANY else 2)
+    angles, areas = np.abs(found[..., 2]), np.exp2(found[..., 0])
     typical = float(np.nanmedian(areas))
     areas = areas / (typical if typical > 0.0 else 1.0)
     numbers = np.nanmax(angles), np.nanmean(angles), np.nanmin(areas), np.nanmax(areas)
