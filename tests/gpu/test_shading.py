@@ -141,7 +141,7 @@ def test_zebra_lines_in_perspective(studio: Studio, target: moderngl.Framebuffer
     camera = frame(sample_surface(mirror), SIZE, SIZE, View(3.0, (0.2, 0.0), 0.0, 90.0), True, 70.0)
     target.use()
     target.clear()
-    studio.painter.surfaces.draw(Patches(mirror, lit=True), camera, "vertex", 4, "zebra", 1.0)
+    studio.painter.surfaces.draw(Patches(mirror, lit=True), camera, "vertex", 4, "zebra")
     found = np.frombuffer(target.read(components=3, alignment=1), np.uint8)
     found = found.reshape(SIZE, SIZE, 3)[SIZE // 2, :, 0] / 255.0
     a, _, c, _ = camera.sight((0, 0, SIZE, SIZE))
