@@ -29,4 +29,7 @@ void main() {
     if (step_index.y == 0 || step_index.y == level.y)
         snap(k.x, n.x, step_index.y == 0 ? outer.y : outer.w);
     emit_surface(patch_index, grid_parameters(k, n));
+#ifdef LEVEL
+    emit_steps(level, outer);
+#endif
 }

@@ -35,4 +35,7 @@ void main() {
 #ifdef LIT
     emit_normal(normal);
 #endif
+#ifdef LEVEL
+    emit_steps(ivec2(level), ivec4(level));
+#endif
 }

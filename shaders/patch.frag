@@ -44,7 +44,8 @@ in vec3 view_normal;
 flat in int located_patch;
 in vec2 located_uv;
 #endif
-#if defined(SHAPED) || defined(DISTORTED)
+#if defined(SHAPED) || defined(DISTORTED) || defined(LEVEL) || defined(ERROR)
+#define COLORED        // by a value, and lit mildly
 uniform sampler2D position_net;
 uniform float scale;   // of a value: where the colour is full
 #ifdef GENERIC_DEGREE
@@ -56,6 +57,16 @@ const ivec2 position_degree = ivec2(POSITION_DEGREE_U, POSITION_DEGREE_V);
 #ifdef SHAPED
 uniform mat3 view_from_model;
 uniform vec4 sight;    // the eye is in direction (xy + zw * pixel, 1), in its coordinates
+#endif
+#ifdef LEVEL
+flat in ivec2 inner_steps;
+flat in ivec4 edge_steps;
+#endif
+#ifdef ERROR
+centroid in vec3 drawn_place;
+centroid in vec4 drawn_uv;
+uniform mat4 clip_from_model;
+uniform vec2 half_size;   // of the viewport, in pixels
 #endif
 #ifdef DISTORTED
 uniform float middle;  // the value that is white
@@ -121,8 +132,38 @@ vec4 look_up() {
 }
 #endif
 
+#ifdef LEVEL
+// Steps along the nearest edge, in a rim of up to `scale` pixels; of the patch inside.
+float shown_steps() {
+    vec4 from_edge = vec4(located_uv, 1.0 - located_uv);
+    vec2 across_u = vec2(dFdx(located_uv.x), dFdy(located_uv.x));
+    vec2 across_v = vec2(dFdx(located_uv.y), dFdy(located_uv.y));
+    vec2 rim = min(scale * vec2(length(across_u), length(across_v)), 0.08);
+    for (int k = 0; k < 4; ++k)
+        if (from_edge[k] < rim[k % 2])
+            return float(edge_steps[k]);
+    return sqrt(float(inner_steps.x) * float(inner_steps.y));
+}
+#endif
+
+#ifdef ERROR
+// Between where the triangle has (u,v) and where the surface has it. Both are taken at one place of
+// the pixel, inside the triangle, and so with multisampling too.
+float pixels_off() {
+    vec4 exact =
+        clip_from_model * evaluate(position_net, located_patch, position_degree, drawn_uv);
+    return length((drawn_place.xy / drawn_place.z - exact.xy / exact.w) * half_size);
+}
+#endif
+
 void main() {
     fragment = color;
+#ifdef LEVEL
+    fragment.rgb = level_color(shown_steps());
+#endif
+#ifdef ERROR
+    fragment.rgb = error_color(pixels_off() / scale);
+#endif
 #ifdef PICTURE
     fragment *= look_up();
 #endif
@@ -144,7 +185,7 @@ void main() {
 #ifdef LIT
     // Two-sided, from over the eye's left shoulder.
     vec3 normal = normalize(view_normal);
-#if defined(SHAPED) || defined(DISTORTED)
+#ifdef COLORED
     float ambient = 0.75;
 #else
     float ambient = 0.45;

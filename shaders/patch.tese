@@ -51,6 +51,11 @@ void main() {
     int patch_index = patch_of_surface[0];
 #ifdef ADAPTIVE
     emit_surface(patch_index, adaptive_parameters());
+#ifdef LEVEL
+    emit_steps(tile.z * ivec2(gl_TessLevelInner[0] + 0.5, gl_TessLevelInner[1] + 0.5),
+               tile.z * ivec4(gl_TessLevelOuter[0] + 0.5, gl_TessLevelOuter[1] + 0.5,
+                              gl_TessLevelOuter[2] + 0.5, gl_TessLevelOuter[3] + 0.5));
+#endif
 #else
     ivec2 step_index = tile.xy + ivec2(gl_TessCoord.xy * vec2(tile.zw) + 0.5);
 #ifdef LISTED
@@ -67,6 +72,9 @@ void main() {
     probed_normal = surface_normal(position_net, patch_index, position_degree, uv, probed_point);
 #else
     emit_surface(patch_index, uv);
+#ifdef LEVEL
+    emit_steps(ivec2(level), ivec4(level));
+#endif
 #endif
 #endif
 }

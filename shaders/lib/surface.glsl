@@ -24,8 +24,18 @@ uniform mat3 view_from_model;
 out vec3 view_normal;
 #endif
 
+#ifdef ERROR
+// llvmpipe divides what it interpolates at a centroid by the w of the pixel's centre. A common factor
+// of x, y and w, or of u and 1-u, drops out when the point is projected.
+centroid out vec3 drawn_place;   // x, y, w of the clip coordinates
+centroid out vec4 drawn_uv;      // (u, 1-u, v, 1-v)
+#endif
+
 void emit_point(vec4 point) {
     gl_Position = clip_from_model * point;
+#ifdef ERROR
+    drawn_place = gl_Position.xyw;
+#endif
 }
 
 #ifdef TEXTURED
@@ -41,6 +51,9 @@ out vec2 located_uv;
 void emit_place(int patch_index, vec2 uv) {
     located_patch = patch_index;
     located_uv = uv;
+#ifdef ERROR
+    drawn_uv = vec4(uv.x, 1.0 - uv.x, uv.y, 1.0 - uv.y);
+#endif
 }
 #endif
 
@@ -55,5 +68,14 @@ void emit_trim(int patch_index, vec4 uv) {
 #ifdef LIT
 void emit_normal(vec3 normal) {
     view_normal = view_from_model * normal;
+}
+#endif
+
+#ifdef LEVEL
+flat out ivec2 inner_steps;
+flat out ivec4 edge_steps;   // of the edges u = 0, v = 0, u = 1, v = 1
+void emit_steps(ivec2 inner, ivec4 edges) {
+    inner_steps = inner;
+    edge_steps = edges;
 }
 #endif

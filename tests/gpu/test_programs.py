@@ -29,6 +29,7 @@ LOOKS: list[dict[str, Any]] = [
     {"TEXTURED": 1, "MIRRORED": 1},
     {"TEXTURED": 1, "MIRRORED": 1, "LIT": 1},
 ]
+MEASURED = [{"LOCATED": 1, name: 1, **lit} for name in ("LEVEL", "ERROR") for lit in LOOKS[:2]]
 RECORDED = [
     [],
     ["COLORED"],
@@ -54,6 +55,10 @@ VARIANTS: list[tuple[tuple[str, ...], dict[str, Any]]] = [
     *((("recorded.vert", "recorded.frag"), dict.fromkeys(look, 1)) for look in RECORDED),
     *((("adaptive.vert", "patch.frag"), look | LOW | ADAPTIVE) for look in LOOKS),
     (("adaptive.vert", "patch.frag"), LOOKS[3] | HIGH | ADAPTIVE),
+    *((("mesh.vert", "patch.frag"), look | LOW) for look in MEASURED),
+    *((("adaptive.vert", "patch.frag"), look | LOW | ADAPTIVE) for look in MEASURED),
+    *(((*TESSELLATION, "patch.frag"), look | HIGH) for look in MEASURED),
+    *(((*TESSELLATION, "patch.frag"), look | LOW | ADAPTIVE) for look in MEASURED),
     *(((*TESSELLATION, "patch.frag"), look | LOW | ADAPTIVE) for look in LOOKS),
     (("adaptive.vert", "located.frag"), LOCATED),
     ((*TESSELLATION, "located.frag"), LOCATED),

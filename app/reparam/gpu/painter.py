@@ -23,7 +23,7 @@ from ..scenes.layers import (
     Patches,
     Recorded,
 )
-from ..scenes.shading import DISTORTION, Scale, Shading
+from ..scenes.shading import OF_SUBJECT, Scale, Shading
 from .adaptive import Tolerance
 from .arrangement import UNITS, Panel, arrange
 from .context import Capabilities, capabilities
@@ -114,7 +114,7 @@ class Painter:
         unit = min(target.size) / UNITS
         for panel in panels:
             shading = display.shading
-            if shading in DISTORTION and panel.space is not figure.subject:
+            if shading in OF_SUBJECT and panel.space is not figure.subject:
                 shading = "light"
             self._draw_space(panel, target, display, shading, chosen, unit, plain)
         if not plain:
@@ -153,7 +153,7 @@ class Painter:
         self.ctx.scissor = box
         if panel.space.spatial:
             self.ctx.enable(moderngl.DEPTH_TEST)
-        scale = self.shapes.scale(panel.space, shading)
+        scale = self.shapes.scale(panel.space, shading, display.tolerance, unit)
         for layer in panel.space.layers:
             self._draw_layer(layer, panel, display, shading, evaluator, unit, scale)
         self.ctx.disable(moderngl.DEPTH_TEST)

@@ -14,7 +14,15 @@ from ..geometry.curvature import REGULAR
 from ..geometry.distortion import FARTHEST
 from ..geometry.net import MAX_ORDER
 from ..geometry.normal import SINGULAR_FACTOR, SINGULAR_SINE, SINGULAR_STEP
-from ..scenes.shading import HIGH_COLOR, LOW_COLOR, ZEBRA_BANDS
+from ..scenes.layers import Color
+from ..scenes.shading import (
+    HIGH_COLOR,
+    LEVEL_COLORS,
+    LEVEL_FULL,
+    LOW_COLOR,
+    OVER_COLOR,
+    ZEBRA_BANDS,
+)
 from .nets import NET_WIDTH
 
 STAGES = {
@@ -61,8 +69,11 @@ def stage_source(
         "REGULAR": REGULAR,
         "FARTHEST": FARTHEST,
         "ZEBRA_BANDS": float(ZEBRA_BANDS),
-        "LOW_COLOR": ", ".join(map(str, LOW_COLOR)),
-        "HIGH_COLOR": ", ".join(map(str, HIGH_COLOR)),
+        "LOW_COLOR": _numbers(LOW_COLOR),
+        "HIGH_COLOR": _numbers(HIGH_COLOR),
+        "OVER_COLOR": _numbers(OVER_COLOR),
+        "LEVEL_COLORS": ", ".join(f"vec3({_numbers(color)})" for color in LEVEL_COLORS),
+        "LEVEL_FULL": LEVEL_FULL,
         **defines,
     }
     if "TRIMMED" in defines:
@@ -71,6 +82,10 @@ def stage_source(
         constants |= {"TRIM_DIVISION": DIVISION, "TRIM_MARGIN": MARGIN}
     text = "".join(f"#define {key} {value}\n" for key, value in constants.items())
     return expand_shader(name, texts, VERSIONS[version] + text)
+
+
+def _numbers(color: Color) -> str:
+    return ", ".join(map(str, color))
 
 
 class Program:

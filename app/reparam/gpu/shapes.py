@@ -1,4 +1,4 @@
-"""Shadings that show shape: the scale of their values in a space, and the legend beside it."""
+"""Shadings: the scale of their values in a space, and the legend beside it."""
 
 from __future__ import annotations
 
@@ -13,11 +13,14 @@ from ..scenes.layers import Array, Color, Patches, Space
 from ..scenes.shading import (
     COLUMN,
     DISTORTION,
+    HALF_A_PIXEL,
+    OF_SUBJECT,
+    RIM,
     SYMBOLS,
     Scale,
     Shading,
     attached_by,
-    diverging,
+    bar_colors,
     ticks,
 )
 from .kept import Kept
@@ -36,9 +39,14 @@ class Shapes:
     def __init__(self) -> None:
         self._values: Kept[tuple[Array, Array]] = Kept(lambda _: None)  # and what it was made of
 
-    def scale(self, space: Space, shading: Shading) -> Scale:
-        """What is white and what has the full colour, common to all patches of the space."""
+    def scale(self, space: Space, shading: Shading, tolerance: float, unit: float) -> Scale:
+        """What is white and what has the full colour, common to all patches of the space, drawn to
+        a tolerance (0: none) where a figure unit is `unit` pixels."""
         layers = shaded(space, shading)
+        if shading == "error":
+            return Scale(full=tolerance or HALF_A_PIXEL)
+        if shading == "level":
+            return Scale(full=RIM * unit)
         if shading in COLUMN and layers:
             values = np.concatenate([self._curvatures(layer.net) for layer in layers])
             return Scale(0.0, round_scale(values[:, COLUMN[shading]]))
@@ -67,9 +75,9 @@ class Shapes:
 
 
 def shaded(space: Space, shading: Shading) -> list[Patches]:
-    """The layers that a shading is for: those that are lit, or all where textures are looked at."""
+    """The layers that a shading is for: those that are lit, or all of a subject."""
     layers = [layer for layer in space.layers if isinstance(layer, Patches)]
-    return [layer for layer in layers if layer.lit or shading in DISTORTION]
+    return [layer for layer in layers if layer.lit or shading in OF_SUBJECT]
 
 
 def distortion_scale(shading: Shading, values: Array) -> Scale:
@@ -104,7 +112,9 @@ def draw_legend(
         return
     if shading in SYMBOLS:
         words = SYMBOLS[shading]
-        _draw_bar(labels, words, [*ticks(shading, scale)], left, top, size, unit)
+        marks = [*ticks(shading, scale)]
+        colors = bar_colors(shading, np.linspace(marks[0][0], marks[-1][0], STEPS))
+        _draw_bar(labels, words, marks, colors, left, top, size, unit)
     elif shading == "kind":
         kinds = dict.fromkeys(layer.kind for layer in layers if layer.kind.words)
         for number, kind in enumerate(kinds):
@@ -118,18 +128,18 @@ def _draw_bar(
     labels: Labels,
     words: str,
     marks: list[tuple[float, str]],
+    colors: Array,
     left: float,
     top: float,
     size: tuple[int, int],
     unit: float,
 ) -> None:
-    """The colours from the first mark's value to the last one's."""
+    """The colours (k, 3) from the first mark's value to the last one's."""
     labels.text(words, (left, top - LINE / 2 * unit), size, WORDS * unit, palette.INK, (0.0, 0.5))
     y = top - 1.5 * LINE * unit
     first, last = marks[0][0], marks[-1][0]
-    edges = np.round(np.linspace(left, left + BAR * unit, STEPS + 1))
-    for value, (start, end) in zip(np.linspace(first, last, STEPS), pairwise(edges), strict=True):
-        red, green, blue = diverging(value)
+    edges = np.round(np.linspace(left, left + BAR * unit, len(colors) + 1))
+    for (red, green, blue), (start, end) in zip(colors, pairwise(edges), strict=True):
         _box(labels, start, y, SWATCH * unit, (red, green, blue), size, end - start)
     for value, text in marks:
         at = (value - first) / (last - first)

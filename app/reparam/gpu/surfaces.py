@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 
 import moderngl
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ..geometry.camera import Camera
 from ..geometry.evaluate import grid_parameters
 from ..scenes.layers import Color, Patches, Picture, Ramp, Texture
-from ..scenes.shading import DISTORTION, PLAIN_SCALE, Scale, Shading, attached_by
+from ..scenes.shading import DISTORTION, DRAWN, PLAIN_SCALE, Scale, Shading, attached_by
 from .adaptive import HARDWARE_LEVEL, SOFTWARE_CHUNK, Adaptive, Tolerance
 from .context import Capabilities
 from .evaluation import FLOATS, Evaluation, orders, patch_count
@@ -54,7 +54,7 @@ class Batch:
 
 @dataclass(frozen=True)
 class Look:
-    """One colour, one shading; `bare` without picture and light.
+    """One colour, one shading, with the layer's picture or without; `bare` without light too.
 
     `map` is what fragments evaluate beside the position: what a texture is attached by, or a field.
     """
@@ -62,6 +62,7 @@ class Look:
     color: Color
     shading: Shading = "light"
     scale: Scale = PLAIN_SCALE
+    pictured: bool = True
     bare: bool = False
     map: Array | None = None
 
@@ -98,7 +99,7 @@ class Surfaces:
         spatial: bool = False,
     ) -> None:
         """The layer as its picture, colour and light say; if lit, as `shading` says instead, and if
-        that is about textures, lit or not.
+        that is about textures or triangles, lit or not.
 
         `scale` says which value is white and which has the full colour. The edge of a trimmed
         surface is blended with what is behind it; in space that may not be drawn yet, so there the
@@ -106,11 +107,10 @@ class Surfaces:
         """
         look = Look(layer.color)
         if shading in DISTORTION:
-            look = Look(WHITE, shading, scale, map=attached_by(layer))
-            layer = replace(layer, texture=None)
-        elif layer.lit and shading != "light":
+            look = Look(WHITE, shading, scale, pictured=False, map=attached_by(layer))
+        elif shading in DRAWN or (layer.lit and shading != "light"):
             color = layer.kind.color if shading == "kind" else WHITE
-            layer, look = replace(layer, texture=None), Look(color, shading, scale)
+            look = Look(color, shading, scale, pictured=False)
         elif layer.texture is not None and layer.texture.exact:
             look = Look(layer.color, map=layer.texture.net)
         share_samples = layer.trim is not None and spatial and self._ctx.fbo.samples > 1
@@ -130,7 +130,7 @@ class Surfaces:
         """The edges of the triangles that `draw` draws."""
         self._ctx.wireframe = True
         try:
-            self._draw(layer, camera, evaluator, fine, Look(color, bare=True))
+            self._draw(layer, camera, evaluator, fine, Look(color, pictured=False, bare=True))
         finally:
             self._ctx.wireframe = False
 
@@ -161,15 +161,17 @@ class Surfaces:
 
     def _defines(self, layer: Patches, look: Look) -> dict[str, int | str]:
         defines: dict[str, int | str] = {}
-        if look.shading in SHAPED:
-            defines |= {"SHAPED": 1, "LOCATED": 1, look.shading.upper(): 1}
+        if look.shading in (*SHAPED, *DRAWN):
+            defines |= {"LOCATED": 1, look.shading.upper(): 1}
             defines |= degree_defines(POSITION_=orders(layer.net))
+        if look.shading in SHAPED:
+            defines["SHAPED"] = 1
         if look.map is not None:
             defines |= {"MAPPED": 1, "LOCATED": 1}
             if look.shading in DISTORTION:
                 defines |= {"DISTORTED": 1, look.shading.upper(): 1}
             defines |= degree_defines(POSITION_=orders(layer.net), MAP_=orders(look.map))
-        if layer.texture is not None and not look.bare:
+        if layer.texture is not None and look.pictured:
             defines |= _picture_defines(layer.texture)
         if layer.lit and not look.bare:
             defines["LIT"] = 1
@@ -185,16 +187,18 @@ class Surfaces:
             clip_from_model=camera.clip_from_model().T.astype(np.float32).tobytes(),
             color=(*look.color, 1.0),
         )
-        if "SHAPED" in program.defines:
+        if "LOCATED" in program.defines:
             self._evaluation.texture(layer.net).use(NET_UNIT)
             program.set(
-                position_net=NET_UNIT,
-                position_degree=orders(layer.net),
-                scale=look.scale.full,
-                sight=camera.sight(self._ctx.viewport),
+                position_net=NET_UNIT, position_degree=orders(layer.net), scale=look.scale.full
             )
+        if "SHAPED" in program.defines:
+            program.set(sight=camera.sight(self._ctx.viewport))
+        if "ERROR" in program.defines:
+            _, _, width, height = self._ctx.viewport
+            program.set(half_size=(width / 2.0, height / 2.0))
         if "MAPPED" in program.defines:
-            self._set_map(program, layer, look)
+            self._set_map(program, look)
         if "LIT" in program.defines:
             program.set(view_from_model=camera.rotation.T.astype(np.float32).tobytes())
         if "PICTURE" in program.defines:
@@ -217,7 +221,7 @@ class Surfaces:
         reach = 0.75 if picture.filter == "smooth" else 0.0
         program.set(image=2, image_from_map=(scale, scale, offset, offset), reach=reach)
 
-    def _set_map(self, program: Program, layer: Patches, look: Look) -> None:
+    def _set_map(self, program: Program, look: Look) -> None:
         assert look.map is not None
         self._evaluation.texture(look.map).use(MAP_UNIT)
         program.set(
@@ -226,9 +230,7 @@ class Surfaces:
             map_stride=0 if patch_count(look.map) == 1 else 1,
         )
         if "DISTORTED" in program.defines:
-            self._evaluation.texture(layer.net).use(NET_UNIT)
-            program.set(position_net=NET_UNIT, position_degree=orders(layer.net))
-            program.set(middle=look.scale.middle, scale=look.scale.full)
+            program.set(middle=look.scale.middle)
 
     # The vertex evaluator -------------------------------------------------------------------
 

@@ -25,7 +25,7 @@ class Display:
     shading: Annotated[
         Shading,
         "lit surfaces: light, zebra lines, curvature, kinds of patches; or how the texture lies: "
-        "area, stretch and angle",
+        "area, stretch and angle; or how it is drawn: level (steps), error (pixels off)",
     ] = "light"
     wireframe: Annotated[bool, "the triangles' edges over the surface"] = False
     net: Annotated[bool, "the control net"] = False

@@ -40,7 +40,7 @@ GROUPS: tuple[tuple[str, tuple[Key | Gesture, ...]], ...] = (
         "how it is drawn",
         (
             Key(("D",), "the domain and the texture beside the picture", "toggle_linked"),
-            Key(("L",), "light, zebra lines, curvatures, kinds, what textures do", "next_shading"),
+            Key(("L",), "light, zebra, curvature, kinds, textures, steps, errors", "next_shading"),
             Key(("N",), "control net", "toggle_net"),
             Key(("W",), "wireframe", "toggle_wireframe"),
             Key(("A",), "as fine as half a pixel asks for, or one level", "toggle_tolerance"),

@@ -7,12 +7,12 @@ from ..geometry.camera import View
 from ..scenes.cursor import Cursor, is_linked
 from ..scenes.linked import can_link
 from ..scenes.registry import scene_names
+from ..scenes.shading import HALF_A_PIXEL
 from ..subject import Subject, scene_subject
 from .stage import Stage, changed_names
 
 LEVELS = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256)
 TOLERANCES = (0.125, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0)
-HALF_A_PIXEL = 0.5
 FIELD_OF_VIEW = 40.0  # degrees, with key O
 CHECKS = (2, 4, 8, 16, 32)
 GLIDE_SECONDS = 0.7

@@ -42,7 +42,12 @@ from ..splines import (
     "Three handles, one smooth surface",
     figure=8,
     animates="turn",
-    plates=(("level=8", "shading=kind"), ("level=8", "shading=zebra")),
+    plates=(
+        ("level=8", "shading=kind"),
+        ("level=8", "shading=zebra"),
+        ("tolerance=0.5", "shading=level"),
+        ("level=2", "shading=error"),
+    ),
 )
 def fig8(
     ratio: Ratio = 0.5,
