@@ -100,8 +100,9 @@ def _draw_compared(
     panels = []
     for side, figure in ((right, figures[1]), (left, figures[0])):
         panels = painter.draw(
-            figure, target, side.display, evaluator=evaluator, views=subject.views, plain=plain
-        )
+            figure, target, side.display,
+            evaluator=evaluator, views=subject.views, plain=plain, more=side is right,
+        )  # fmt: skip
         if side is right:
             painter.comparison.keep(target)
     display = subject.display

@@ -16,7 +16,7 @@ from reparam import assets
 from reparam.geometry.camera import View, frame
 from reparam.geometry.evaluate import sample_surface
 from reparam.geometry.net import Array
-from reparam.gpu import surfaces
+from reparam.gpu import batches
 from reparam.gpu.painter import Painter
 from reparam.scenes.layers import Patches, Picture, Texture
 from reparam.snapshot import Studio
@@ -72,14 +72,14 @@ def test_batches(draw: Draw, monkeypatch: pytest.MonkeyPatch, kept_bytes: int) -
     layer = textured(tiled(5))
     whole = draw(layer, "vertex", 4)
     assert len(np.unique(whole.reshape(-1, 3), axis=0)) > 50
-    monkeypatch.setattr(surfaces, "BATCH_VERTICES", 3 * 25)
-    monkeypatch.setattr(surfaces, "KEPT_BYTES", kept_bytes)
+    monkeypatch.setattr(batches, "BATCH_VERTICES", 3 * 25)
+    monkeypatch.setattr(batches, "KEPT_BYTES", kept_bytes)
     assert (draw(layer, "vertex", 4) == whole).all()
 
 
 @pytest.mark.parametrize("evaluator", EVALUATORS)
 def test_more_patches_than_a_batch(draw: Draw, evaluator: str) -> None:
-    side = 1 + int(np.sqrt(surfaces.BATCH_VERTICES // 9))
+    side = 1 + int(np.sqrt(batches.BATCH_VERTICES // 9))
     picture = draw(Patches(tiled(side) * [1.0, 1.0, 0.0, 1.0]), evaluator, 2)
     margin = SIZE // 20
     assert (picture[margin:-margin, margin:-margin] == 255).all()

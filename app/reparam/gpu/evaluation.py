@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ..geometry.formula import Formula
 from .kept import Kept
-from .nets import NET_UNIT, net_texture
+from .nets import NET_UNIT, net_texture, rewrite
 from .programs import SPECIALISED_DEGREE, Program, Programs, degree_defines
 
 Array = NDArray[np.float64]
@@ -55,8 +55,13 @@ class Evaluation:
         self._parameters: Kept[Parameters] = Kept(lambda p: p.buffer.release(), frames=64)
 
     def texture(self, net: Array) -> moderngl.Texture:
-        """The net on the GPU; uploaded once for each array."""
-        return self._textures.get(net, None, lambda: net_texture(self._ctx, net))
+        """The net on the GPU; uploaded once for each array, and after an edit what it changed."""
+        return self._textures.get(
+            net,
+            None,
+            lambda: net_texture(self._ctx, net),
+            lambda texture, changed: rewrite(texture, net, changed),
+        )
 
     def run(
         self,
@@ -65,11 +70,13 @@ class Evaluation:
         patches: Sequence[int] | range,
         *,
         normals: bool = False,
+        into: tuple[moderngl.Buffer, int] | None = None,
     ) -> moderngl.Buffer:
         """Points, and normals if asked, of consecutive patches at the parameters (k, 4).
 
         The buffer holds float32 (patches, k, 4), or (patches, k, 7) with normals; a net of one
-        patch answers for all of them.
+        patch answers for all of them. `into` is a buffer to write to instead of a new one, and how
+        many patches come before these in it.
         """
         if patch_count(net) == 1 and len(patches) > 1:
             captured = self.run(net, parameters, range(1), normals=normals)
@@ -90,9 +97,15 @@ class Evaluation:
             program.ready(),
             [(where.buffer, "4f", "parameters")] if "parameters" in program.gl else [],
         )
-        size = len(patches) * where.count * FLOATS[normals] * 4
-        captured = self._ctx.buffer(reserve=size)
-        vertices.transform(captured, moderngl.POINTS, where.count, instances=len(patches))
+        size = where.count * FLOATS[normals] * 4
+        captured, before = into or (self._ctx.buffer(reserve=len(patches) * size), 0)
+        vertices.transform(
+            captured,
+            moderngl.POINTS,
+            where.count,
+            instances=len(patches),
+            buffer_offset=before * size,
+        )
         vertices.release()
         return captured
 

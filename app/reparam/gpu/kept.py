@@ -8,8 +8,11 @@ from typing import Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from .changes import changed_runs
+
 T = TypeVar("T")
 Array = NDArray[np.float64]
+Renew = Callable[[T, list[range]], None]
 
 
 class Kept(Generic[T]):
@@ -24,13 +27,38 @@ class Kept(Generic[T]):
         self._frames = frames
         self._now = 0
 
-    def get(self, array: Array, key: Hashable, make: Callable[[], T]) -> T:
-        """The result kept for this very array and key, made if there is none."""
+    def get(
+        self, array: Array, key: Hashable, make: Callable[[], T], renew: Renew[T] | None = None
+    ) -> T:
+        """The result kept for this very array and key, made if there is none.
+
+        With `renew` it may instead be the result of an array that this one differs little from
+        and that the frame has not used: `renew` gets it with the patches (rows of the first axis)
+        that have changed, and rewrites those.
+        """
         slot = (id(array), key)
         entry = self._entries.get(slot)
-        result = entry[1] if entry else make()
+        result = entry[1] if entry else None
+        if result is None and renew is not None:
+            result = self._renewed(array, key, renew)
+        if result is None:
+            result = make()
         self._entries[slot] = (array, result, self._now)
         return result
+
+    def _renewed(self, array: Array, key: Hashable, renew: Renew[T]) -> T | None:
+        for slot, (before, result, used) in list(self._entries.items()):
+            if slot[1] == key and used < self._now:
+                changed = changed_runs(before, array)
+                if changed is not None:
+                    del self._entries[slot]
+                    try:
+                        renew(result, changed)
+                    except BaseException:
+                        self._release(result)
+                        raise
+                    return result
+        return None
 
     def sweep(self) -> None:
         """End of a frame: drop what the last frames did not use."""

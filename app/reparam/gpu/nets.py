@@ -36,3 +36,22 @@ def net_texture(ctx: moderngl.Context, net: NDArray[np.float64]) -> moderngl.Tex
     texture = ctx.texture((texels.shape[1], texels.shape[0]), 4, texels.tobytes(), dtype="f4")
     texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
     return texture
+
+
+def rewrite(texture: moderngl.Texture, net: NDArray[np.float64], changed: list[range]) -> None:
+    """Bring a texture of a net (patches, m, n, 4) up to date where these patches have changed.
+
+    Only their texels travel: a run is the rest of a row, whole rows, the beginning of a row.
+    """
+    width, points = texture.size[0], net[0].size // 4
+    for patches in changed:
+        texels = net[patches.start : patches.stop].reshape(-1, 4).astype(np.float32)
+        start, stop = patches.start * points, patches.stop * points
+        first = start
+        while first < stop:
+            row, column = divmod(first, width)
+            rows = 1 if column else max(1, (stop - first) // width)
+            last = min(stop, first + rows * width - column)
+            box = (column, row, (last - first) // rows, rows)
+            texture.write(texels[first - start : last - start].tobytes(), viewport=box)
+            first = last

@@ -96,8 +96,10 @@ class Painter:
         evaluator: str | None = None,
         views: Mapping[str, View] | None = None,
         plain: bool = False,
+        more: bool = False,
     ) -> list[Panel]:
-        """The figure, or with `plain` its subject's patches alone on a saturated ground.
+        """The figure, or with `plain` its subject's patches alone on a saturated ground; `more`
+        figures follow in the same frame.
 
         Raises GraphicsError if OpenGL reports an error, or has not the evaluator asked for.
         """
@@ -119,7 +121,8 @@ class Painter:
             self._draw_space(panel, target, display, shading, chosen, unit, plain)
         if not plain:
             self._draw_words(figure, panels, target.size, unit)
-        self._end_frame()
+        if not more:
+            self._end_frame()
         target.resolve()
         return panels
 

@@ -9,11 +9,11 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from .batches import grid
 from .evaluation import orders, patch_count
 from .nets import NET_UNIT
 from .painter import Painter
 from .programs import degree_defines
-from .surfaces import grid
 
 Array = NDArray[np.float64]
 PROBE_WIDTH = 1024

@@ -4,21 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 
 import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.camera import Camera
-from ..geometry.evaluate import grid_parameters
 from ..scenes.layers import Color, Patches, Picture, Ramp, Texture
 from ..scenes.shading import DISTORTION, DRAWN, PLAIN_SCALE, Scale, Shading, attached_by
 from .adaptive import HARDWARE_LEVEL, SOFTWARE_CHUNK, Adaptive, Tolerance
+from .batches import Batches
 from .context import Capabilities
-from .evaluation import FLOATS, Evaluation, orders, patch_count
+from .evaluation import Evaluation, orders, patch_count
 from .fineness import MAP_UNIT
-from .kept import Kept
 from .meshes import triangle_indices
 from .nets import NET_UNIT
 from .pictures import Pictures
@@ -27,8 +25,6 @@ from .trims import Part, Trims
 
 Array = NDArray[np.float64]
 
-BATCH_VERTICES = 1 << 18  # evaluated and drawn at a time
-KEPT_BYTES = 1 << 29  # a layer that needs more is evaluated anew for each frame
 SHAPED = ("zebra", "gauss", "mean")  # told by the patch's own derivatives, fragment by fragment
 WHITE = (1.0, 1.0, 1.0)
 RAMP = Picture("ramp", wrap="mirror")
@@ -40,16 +36,6 @@ TRIMMED_TILE = 8  # steps: of a trimmed surface only tiles near its curves look 
 
 Tile = tuple[int, int, int, int]
 Tiles = Sequence[tuple[Tile, NDArray[np.int32]]]
-
-grid = lru_cache(maxsize=16)(grid_parameters)
-
-
-@dataclass(frozen=True)
-class Batch:
-    """Consecutive patches, evaluated: a buffer of vertices."""
-
-    patches: range
-    vertices: moderngl.Buffer
 
 
 @dataclass(frozen=True)
@@ -84,7 +70,7 @@ class Surfaces:
         self.pictures = Pictures(ctx, capabilities)
         self.adaptive = Adaptive(ctx, programs, evaluation, capabilities)
         self._trims = Trims(ctx)
-        self._batches: Kept[list[Batch]] = Kept(_release)
+        self._batches = Batches(evaluation)
         self._indices: dict[tuple[int, int], moderngl.Buffer] = {}
 
     def draw(
@@ -157,7 +143,7 @@ class Surfaces:
 
     def forget(self) -> None:
         """Drop what older shaders evaluated."""
-        self._batches.clear()
+        self._batches.forget()
 
     def _defines(self, layer: Patches, look: Look) -> dict[str, int | str]:
         defines: dict[str, int | str] = {}
@@ -237,9 +223,10 @@ class Surfaces:
     def _draw_meshes(self, layer: Patches, camera: Camera, level: int, look: Look) -> None:
         defines = self._defines(layer, look)
         texture_net = layer.texture.net if layer.texture and "TEXTURED" in defines else None
-        positions = self._evaluated(layer.net, level, patch_count(layer.net), layer.lit)
+        count = patch_count(layer.net)
+        positions = self._batches.evaluated(layer.net, level, count, layer.lit)
         maps = (
-            self._evaluated(texture_net, level, patch_count(layer.net), False)
+            self._batches.evaluated(texture_net, level, count, False)
             if texture_net is not None
             else None
         )
@@ -258,23 +245,6 @@ class Surfaces:
                 vertices = self._ctx.vertex_array(program.ready(), content, part.indices)
                 vertices.render(vertices=part.count)
                 vertices.release()
-
-    def _evaluated(self, net: Array, level: int, count: int, normals: bool) -> Iterator[Batch]:
-        """The net's batches: kept while the same net is drawn, or made one by one if too large."""
-        if count * (level + 1) ** 2 * FLOATS[normals] * 4 <= KEPT_BYTES:
-            key = (level, count, normals)
-            yield from self._batches.get(net, key, lambda: list(self._evaluate(net, *key)))
-            return
-        for batch in self._evaluate(net, level, count, normals):
-            yield batch
-            batch.vertices.release()
-
-    def _evaluate(self, net: Array, level: int, count: int, normals: bool) -> Iterator[Batch]:
-        step = max(1, BATCH_VERTICES // (level + 1) ** 2)
-        for first in range(0, count, step):
-            patches = range(first, min(first + step, count))
-            captured = self._evaluation.run(net, grid(level), patches, normals=normals)
-            yield Batch(patches, captured)
 
     def _parts(self, layer: Patches, level: int, patches: range) -> list[Part]:
         """The triangles to draw; in a trimmed surface only some must ask for each fragment."""
@@ -367,11 +337,6 @@ def _picture_defines(texture: Texture) -> dict[str, int | str]:
         return {"PICTURE": 1, "RAMP": 1, "FIELD(x, y)": formula, where: 1}
     mirrored = {"MIRRORED": 1} if picture.wrap == "mirror" else {}
     return {"PICTURE": 1, "TEXTURED": 1, **mirrored}
-
-
-def _release(batches: list[Batch]) -> None:
-    for batch in batches:
-        batch.vertices.release()
 
 
 def decided(defines: dict[str, int | str], trimmed: bool) -> dict[str, int | str]:
