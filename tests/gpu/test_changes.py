@@ -15,11 +15,11 @@ from reparam.gpu.painter import Painter
 from reparam.scenes.layers import Patches, Picture, Texture
 from reparam.snapshot import Studio
 
-PATCHES = 1200  # of 3 x 4 points: almost four rows of texels
+PATCHES = 2400  # of 3 x 4 points: seven rows of texels and more
 LEVEL = 2
 SIZE = (96, 96)
 CAMERA = Camera(np.eye(3), np.zeros(3), 1.1, 1.1, 4.0)
-ROUNDS = 12
+ROUNDS = 9
 
 
 def edited(random: np.random.Generator, nets: Array, most: int) -> Array:
@@ -123,7 +123,7 @@ def test_random_edits_leave_what_a_fresh_painter_makes(
             painter.surfaces.sweep()
             before, nets = nets, edited(random, nets, 30)
             if number % 4 == 0:
-                nets[(first := random.integers(600)) : first + 550] += 0.1  # whole rows of texels
+                nets[(first := random.integers(1200)) : first + 1100] += 0.1  # whole rows of texels
             changed = int((before != nets).any((1, 2, 3)).sum())
             travelled.update(bytes=0, vertices=0)
             found = kept(painter, nets)
