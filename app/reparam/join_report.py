@@ -53,6 +53,7 @@ def _row(found: Joins, index: int) -> dict[str, Any]:
     return {
         "patches": found.patches[index].tolist(),
         "sides": [SIDES[side] for side in found.sides[index]],
+        "spans": found.spans[index].tolist(),
         "reversed": bool(found.reversed[index]),
         "opposed": bool(found.opposed[index]),
         "gap": _number(found.gaps[index]),
@@ -107,7 +108,9 @@ def table(name: str, found: dict[str, Any], every: bool) -> Iterator[str]:
     for row in shown:
         (one, other), (side, across) = row["patches"], row["sides"]
         jump, bend = (_short(row[key]) for key in ("angle", "curvature_jump"))
+        low, high = row["spans"][1]
         mark = "folded" if row["folded"] else "opposed" if row["opposed"] else ""
+        mark += f" on {low:g}..{high:g}" * (high - low < 1.0)
         yield (
             f"{one:7} {side}  {other:5} {across}  {row['gap']:8.1e}  {jump:>8}  {bend:>9}"
             f"  {_span(row['beta']):>16}  {_span(row['alpha']):>16}  {row['order']:3} {mark}"

@@ -87,7 +87,7 @@ def test_half_edges_agree(name: str) -> None:
             [(0, 1, 2), (0, 1, 3)],
             "edge 0-1: expected faces that run along it in opposite directions, .* faces 0, 1",
         ),
-        ([(0, 1, 2), (0, 3, 4)], "vertex 0: expected one fan of faces; the face . is not in"),
+        ([(0, 1, 2), (0, 3, 4)], "vertex 0: expected one fan of faces, found the face . apart"),
     ],
 )
 def test_bad_faces_are_named(faces: list[tuple[int, ...]], words: str) -> None:

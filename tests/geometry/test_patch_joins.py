@@ -9,8 +9,10 @@ import pytest
 from numpy.polynomial import polynomial
 
 from reparam.geometry.body import Patch, body
+from reparam.geometry.merging import merging
 from reparam.geometry.meshes import MESHES
-from reparam.geometry.net import Array, control_net
+from reparam.geometry.net import Array, control_net, raise_degree
+from reparam.geometry.nurbs import restricted
 from reparam.geometry.patch_joins import fold, joins
 from reparam.geometry.surface_spline import surface_spline
 
@@ -136,7 +138,7 @@ def test_surface_splines_have_the_change_of_variables_of_their_derivation() -> N
     for name, n in (("cube", 3), ("icosahedron", 5), ("prism8", 8)):
         found = MESHES[name]()
         spline = surface_spline(found.topology, 0.5)
-        report = joins(spline.nets(found.vertices), highest=1)
+        report = joins(spline.nets(found.vertices), samples=9, highest=1)
         t = np.linspace(0.0, 1.0, report.r.shape[2])
         facet = spline.facet[report.patches]
         inner = (facet == n).all(1) & (report.sides[:, 0] % 2 == 0) & (report.sides[:, 1] % 2 == 0)
@@ -181,3 +183,71 @@ def test_fold() -> None:
     folded = control_net([[(x, 0, z), (x, 1, z)] for x, z in rows])
     assert fold(flat[None])[0] == pytest.approx(1.0)
     assert fold(folded[None], 31)[0] < 0.0
+
+
+def patch_over(u: tuple[float, float], v: tuple[float, float]) -> Array:
+    """A part of one surface z = f(x, y) over a rectangle: (4, 4, 4)."""
+    corner = np.array([[u[0], v[0]]]), np.array([[u[1], v[1]]])
+    whole = bezier([X, Y, HEIGHT], 3)
+    return restricted(whole, *corner)[0]
+
+
+def test_halves_and_quarters_of_an_edge() -> None:
+    """Below, one patch; above it on its edge a half, the other way round, and two quarters."""
+    half = patch_over((0.0, 0.5), (0.5, 1.0))[::-1, ::-1]
+    quarters = [patch_over((0.5 + a, 0.75 + a), (0.5, 1.0)).swapaxes(0, 1) for a in (0.0, 0.25)]
+    found = joins(np.stack([patch_over((0.0, 1.0), (0.0, 0.5)), half, *quarters]))
+    rows = {
+        (tuple(p), tuple(s), tuple(span[1]))
+        for p, s, span in zip(
+            found.patches.tolist(), found.sides.tolist(), found.spans.tolist(), strict=True
+        )
+    }
+    assert rows == {
+        ((1, 0), (3, 3), (0.0, 0.5)),
+        ((2, 0), (0, 3), (0.5, 0.75)),
+        ((3, 0), (0, 3), (0.75, 1.0)),
+        ((2, 3), (3, 2), (0.0, 1.0)),
+        ((1, 2), (0, 2), (0.0, 1.0)),
+    }
+    assert found.orders.min() == 3  # they are one surface
+    assert found.gaps.max() < 1e-15
+    assert found.angles.max() < 1e-12
+    assert (0, 3) not in map(tuple, found.free.tolist())
+    assert found.beta.min() > 0.0
+
+
+def test_an_edge_that_is_covered_in_part_is_free_too() -> None:
+    half = patch_over((0.0, 0.5), (0.5, 1.0))
+    found = joins(np.stack([patch_over((0.0, 1.0), (0.0, 0.5)), half]))
+    assert found.patches.tolist() == [[1, 0]]
+    assert [0, 3] in found.free.tolist()
+    tilted = half.copy()
+    tilted[:, 1:, 2] += 0.01
+    bent = joins(np.stack([patch_over((0.0, 1.0), (0.0, 0.5)), tilted]))
+    assert bent.orders.tolist() == [0]
+    assert bent.angles[0] > 1.0
+
+
+@pytest.mark.parametrize("name", ["t_mesh", pytest.param("three_handles", marks=pytest.mark.slow)])
+def test_a_merged_body_joins_at_its_t_junctions(name: str) -> None:
+    found = MESHES[name]()
+    spline = surface_spline(found.topology, 0.3)
+    all_patches = joins(spline.nets(found.vertices), samples=9, highest=1)
+    one = merging(spline)
+    fewer = joins(one.nets(spline.nets(found.vertices)), samples=9, highest=1)
+    assert np.ptp(fewer.spans[:, 1], axis=1).min() == 0.5
+    assert (np.ptp(fewer.spans[:, 0], axis=1) == 1.0).all()
+    assert fewer.angles.max() <= 1e-8
+    assert fewer.gaps.max() <= 1e-15
+    assert len(fewer.free) == len(all_patches.free) == 0
+    lost = len(fewer.patches) + 4 * len(one.parts)  # four inner edges of each, and halves of outer
+    assert lost <= len(all_patches.patches)
+
+
+def test_patches_of_different_degrees() -> None:
+    """A part of a cubic and one raised to degree 5 meet; `body` brings them to one degree."""
+    left, right = patch_over((0.0, 0.5), (0.0, 1.0)), patch_over((0.5, 1.0), (0.0, 1.0))
+    found = joins(body([Patch(left), Patch(raise_degree(right, 5, 4))]).nets)
+    assert found.patches.tolist() == [[0, 1]]
+    assert found.orders.tolist() == [3]

@@ -22,7 +22,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from .evaluate import evaluate, project
+from .curve import curve_points, restrict
+from .edge_pairs import edge_nets, edge_pairs
+from .evaluate import project
 from .net import Array
 from .normal import surface_normal
 from .partials import partials
@@ -48,12 +50,13 @@ class Joins:
 
     patches: Indices  # (J, 2)
     sides: Indices  # (J, 2) indices of SIDES
+    spans: Array  # (J, 2, 2) low and high: the part of each edge; the first is whole
     reversed: NDArray[np.bool_]  # (J,) whether the edge runs the other way in the second patch
     opposed: NDArray[np.bool_]  # (J,) whether p_u x p_v of the two have opposite sides
     gaps: Array  # (J,)
     jumps: Array  # (J, K)
     r: Array  # (J, K, S, 2): r_x, r_xx, r_xxx
-    free: Indices  # (K, 2) patch and side of the edges that no other meets
+    free: Indices  # (K, 2) patch and side of the edges that others do not cover
     points: int  # edges that have shrunk to a point
     size: float
     tolerance: float
@@ -84,7 +87,8 @@ class Joins:
 def joins(
     nets: Array, tolerance: float = TOLERANCE, samples: int = SAMPLES, highest: int = HIGHEST
 ) -> Joins:
-    """All pairs of edges of nets (P, m, m, 4) that coincide, forwards or backwards.
+    """All pairs of edges of nets (P, m, m, 4) that coincide, forwards or backwards, and of edges
+    that are a half, quarter or eighth of another.
 
     `tolerance` is for gaps, relative to the size of the body, and for `orders`; derivatives are
     compared up to the order `highest`, K = 1, 2 or 3.
@@ -92,80 +96,39 @@ def joins(
     t = np.linspace(0.0, 1.0, samples)
     affine = project(nets[nets[..., 3] > 0.0])
     size = float(np.linalg.norm(np.ptp(affine, axis=0))) or 1.0
-    curves = _edge_curves(nets, t)
-    length = np.linalg.norm(np.diff(curves, axis=1), axis=-1).sum(1)
+    number = np.arange(4 * len(nets))
+    curves = edge_nets(nets, number // 4, number % 4)
+    length = np.linalg.norm(np.diff(curve_points(curves, t), axis=1), axis=-1).sum(1)
     points = length <= tolerance * size
-    first, second, backwards = _coincident(curves, np.flatnonzero(~points), tolerance * size)
+    pairs = edge_pairs(curves, ~points, tolerance * size, samples)
+    first, second = pairs.edges.T
     gaps = np.zeros(len(first))
     jumps = np.zeros((len(first), highest))
     r = np.zeros((len(first), highest, samples, 2))
     for start in range(0, len(first), CHUNK):
         part = slice(start, start + CHUNK)
-        f = _from_edge(nets, first[part], np.zeros(len(first[part]), bool))
-        g = _from_edge(nets, second[part], backwards[part])
+        spans, backwards = pairs.spans[part], pairs.backwards[part]
+        f = _from_edge(nets, first[part], spans[:, 0], np.zeros(len(spans), bool))
+        g = _from_edge(nets, second[part], spans[:, 1], backwards)
         gaps[part], jumps[part], r[part] = _compare(f, g, t, size, highest)
-    alone = np.ones(len(curves), bool)
-    alone[first] = alone[second] = alone[points] = False
     parity = np.array([1, -1, -1, 1])
-    turned = parity[first % 4] * parity[second % 4] * np.where(backwards, -1, 1)
-    free = np.flatnonzero(alone)
-    pairs = np.stack([first, second], -1)
+    turned = parity[first % 4] * parity[second % 4] * np.where(pairs.backwards, -1, 1)
     return Joins(
-        pairs // 4, pairs % 4, backwards, turned > 0, gaps, jumps, r,
-        np.stack([free // 4, free % 4], -1), int(points.sum()), size, tolerance,
+        pairs.edges // 4, pairs.edges % 4, pairs.spans, pairs.backwards, turned > 0, gaps, jumps, r,
+        np.stack([pairs.free // 4, pairs.free % 4], -1), int(points.sum()), size, tolerance,
     )  # fmt: skip
 
 
-def _edge_curves(nets: Array, t: Array) -> Array:
-    """Points (4 P, S, 3) of the four edges of each patch, in the order of SIDES."""
-    zero, one = np.zeros_like(t), np.ones_like(t)
-    sides = [(zero, t), (one, t), (t, zero), (t, one)]
-    curves = np.stack([project(evaluate(nets, u, v)) for u, v in sides], 1)
-    return curves.reshape(-1, len(t), 3)
-
-
-def edge_nets(nets: Array, patches: Indices, sides: Indices) -> Array:
-    """The boundary curves of patches as Bezier curves (E, m, 4); `sides` are indices of SIDES."""
-    rows = np.stack([nets[:, 0], nets[:, -1], nets[:, :, 0], nets[:, :, -1]], 1)
-    return np.asarray(rows[patches, sides])
-
-
-def _coincident(
-    curves: Array, among: Indices, reach: float
-) -> tuple[Indices, Indices, NDArray[np.bool_]]:
-    """Pairs of curves nearer than `reach` everywhere, and whether the second runs backwards.
-
-    Curves that coincide have the same mean point, whichever way they run; sorted along one skew
-    direction, only neighbours in the list need be compared.
-    """
-    key = curves[among].mean(1) @ np.array([0.8165, 0.4714, 0.3333])
-    order = among[np.argsort(key)]
-    key = np.sort(key)
-    found: list[tuple[Indices, Indices, NDArray[np.bool_]]] = []
-    for apart in range(1, len(order)):
-        near = np.flatnonzero(key[apart:] - key[:-apart] <= 2.0 * reach)
-        if not len(near):
-            break
-        one, other = order[near], order[near + apart]
-        one, other = np.minimum(one, other), np.maximum(one, other)
-        forth = np.abs(curves[one] - curves[other]).max((1, 2))
-        back = np.abs(curves[one] - curves[other][:, ::-1]).max((1, 2))
-        match = np.minimum(forth, back) <= reach
-        found.append((one[match], other[match], (back < forth)[match]))
-    if not found:
-        nothing = np.zeros(0, np.intp)
-        return nothing, nothing, np.zeros(0, bool)
-    first, second, backwards = (np.concatenate(part) for part in zip(*found, strict=True))
-    place = np.lexsort([second, first])
-    return first[place], second[place], backwards[place]
-
-
-def _from_edge(nets: Array, edges: Indices, backwards: NDArray[np.bool_]) -> Array:
-    """The patches of these edges, written so that the edge is x = 0, y running as asked."""
+def _from_edge(nets: Array, edges: Indices, spans: Array, backwards: NDArray[np.bool_]) -> Array:
+    """The patches of these edges, written so that the part of the edge from low to high is x = 0,
+    y running as asked."""
     side = (edges % 4)[:, None, None, None]
     chosen = nets[edges // 4]
     chosen = np.where(side >= 2, chosen.swapaxes(1, 2), chosen)
     chosen = np.where(side % 2 == 1, chosen[:, ::-1], chosen)
+    for low, high in np.unique(spans, axis=0):
+        here = (spans == (low, high)).all(1)
+        chosen[here] = restrict(chosen[here], low, high)
     return np.where(backwards[:, None, None, None], chosen[:, :, ::-1], chosen)
 
 

@@ -73,7 +73,8 @@ class SurfaceSpline:
     irregular `raised` leads on to the points of bicubic nets, picked by `index` (P, m, m). `facet`
     (P,) is the size of the irregular facet that a patch touches, 4 where it touches none; `face`
     (P,) the face of the mesh that it belongs to; `ratios` (E,) are the edges'. `whole` is the mesh
-    with its phantoms, `cuts` are the meshes after each cut.
+    with its phantoms, `cuts` are the meshes after each cut; `fractions` are the last cut's, ahead
+    and behind each corner, and `corner` (P,) says which corner each patch came from.
     """
 
     stages: tuple[Sparse, ...]
@@ -85,6 +86,8 @@ class SurfaceSpline:
     ratios: Array
     whole: Topology
     cuts: tuple[Topology, ...]
+    fractions: tuple[Array, Array]
+    corner: Indices
 
     @cached_property
     def stencils(self) -> Sparse:
@@ -168,10 +171,11 @@ def surface_spline(t: Topology, ratios: ArrayLike = 0.5) -> SurfaceSpline:
         low, quadratic = _used(low, quadratic)
         raised, index = None, quadratic
     stages += [regular_facets(last), low]
-    belongs = face[last.origin[ring[:, 0]]]
+    corner = last.origin[ring[:, 0]]
     return SurfaceSpline(
-        tuple(stages), quadratic, raised, index, facet, belongs, own, whole, tuple(cuts)
-    )
+        tuple(stages), quadratic, raised, index, facet, face[corner], own, whole, tuple(cuts),
+        fractions, corner,
+    )  # fmt: skip
 
 
 def _balanced(t: Topology, first: Topology, ahead: Array, behind: Array) -> tuple[Array, Array]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..geometry.patch_joins import Joins, edge_nets, joins
+from ..geometry.edge_pairs import edge_nets
+from ..geometry.patch_joins import Joins, joins
 from . import palette
 from .layers import Array, Color, Polylines
 from .remember import remember

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import lru_cache
-from typing import Annotated, Any, Literal, get_args
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,15 +30,10 @@ from .layers import (
     Polylines,
     Texture,
 )
+from .merged import facets_of, merging_of, shown
 from .parameters import Points, Range
 from .remember import remember
 
-BuiltIn = Literal[
-    "cube", "tetrahedron", "octahedron", "icosahedron", "dodecahedron", "prism6", "prism7",
-    "prism8", "prism9", "three_handles", "torus", "hexagon_torus", "t_mesh", "open_cube", "hill",
-    "parasol",
-]  # fmt: skip
-assert set(get_args(BuiltIn)) == set(MESHES)
 Ratio = Annotated[float, Range(0.02, 0.98, 0.02), "blend ratio: to 0 a sharp edge, 1/2 the spline"]
 Creases = Annotated[Array, Points((None, 3), "ratios of single edges: vertex, vertex, ratio")]
 Moved = Annotated[Array, Points((None, 4), "vertices moved: vertex, x, y, z")]
@@ -176,19 +171,24 @@ def net_layers(control: Mesh, spline: SurfaceSpline) -> tuple[Layer, ...]:
 
 
 def patch_layers(
-    spline: SurfaceSpline, vertices: Array, texture: str, picture: Picture, outline: float = 0.5
+    spline: SurfaceSpline,
+    vertices: Array,
+    texture: str,
+    picture: Picture,
+    outline: float = 0.5,
+    merged: bool = False,
 ) -> tuple[Layer, ...]:
     """The surface with its texture, one layer for each kind of patch, and the patches' edges,
     unless `outline`, their width, is 0."""
-    nets = nets_of(spline, vertices)
     maps = maps_of(spline, vertices) if texture == "layout" else None
+    nets, maps, facet, index = shown(spline, nets_of(spline, vertices), maps, merged)
     layers: list[Layer] = []
-    for size, part, own in parts(spline, nets, maps):
+    for size, part, own in parts(facet, nets, maps):
         words = "regular" if size == 4 else f"around {SIDES.get(size, f'{size}-gons')}"
         kind = Kind(palette.FACETS.get(size, palette.FACETS[7]), words)
         layers.append(Patches(part, Texture(own, picture), lit=True, kind=kind))
     if outline:
-        layers.append(Polylines(outlines(spline.index, nets), palette.INK, outline))
+        layers.append(Polylines(outlines(index, nets), palette.INK, outline))
     return tuple(layers)
 
 
@@ -218,11 +218,13 @@ def polylines(curves: Array) -> Array:
 
 
 @remember
-def parts(spline: SurfaceSpline, nets: Array, maps: Array | None) -> list[tuple[int, Array, Array]]:
+def parts(
+    facet: NDArray[np.intp], nets: Array, maps: Array | None
+) -> list[tuple[int, Array, Array]]:
     """Facet size, nets and texture nets of each kind of patch."""
     found = []
-    for size in np.unique(spline.facet).tolist():
-        chosen = spline.facet == size
+    for size in np.unique(facet).tolist():
+        chosen = facet == size
         found.append((size, nets[chosen], IDENTITY if maps is None else maps[chosen]))
     return found
 
@@ -274,13 +276,14 @@ def distortion(nets: Array, maps: Array) -> tuple[float, float, float, float]:
     return most, mean, low, high
 
 
-def count_words(spline: SurfaceSpline) -> str:
+def count_words(spline: SurfaceSpline, merged: bool = False) -> str:
     """How many patches there are, of which kinds."""
-    plain = int(np.count_nonzero(spline.facet == 4))
-    odd = {n: int(np.count_nonzero(spline.facet == n)) for n in np.unique(spline.facet) if n != 4}
+    facet = facets_of(merging_of(spline), spline) if merged else spline.facet
+    plain = int(np.count_nonzero(facet == 4))
+    odd = {n: int(np.count_nonzero(facet == n)) for n in np.unique(facet) if n != 4}
     words = [f"{plain} biquadratic"]
     words += [f"{count} bicubic around {SIDES.get(n, f'{n}-gons')}" for n, count in odd.items()]
-    return f"{len(spline.facet)} patches: " + ", ".join(words)
+    return f"{len(facet)} patches: " + ", ".join(words)
 
 
 def distortion_words(spline: SurfaceSpline, vertices: Array, texture: str) -> str:

@@ -15,6 +15,7 @@ from ...geometry.surface_spline import surface_spline
 from ..attachments import Checks, attachment
 from ..claims import Claim
 from ..layers import Array, Figure, Space
+from ..merged import Merged, merging_of
 from ..parameters import Range
 from ..registry import scene
 from ..remember import remember
@@ -55,18 +56,19 @@ def fig8(
     checks: Checks = 4,
     creases: Creases = NO_CREASES,
     moved: Moved = NONE_MOVED,
+    merged: Merged = False,
     turn: Annotated[float, Range(0, 360, 15), "degrees about the z-axis"] = 0.0,
 ) -> Figure:
     control = turned(moved_mesh(built_in("three_handles"), moved), turn)
     ratios = ratios_of(control.topology, ratio, creases)
     spline = spline_of(control.topology, ratios)
     picture = attachment(checks, "", "repeat", "smooth")
-    surface = patch_layers(spline, control.vertices, texture, picture, outline=0.4)
+    surface = patch_layers(spline, control.vertices, texture, picture, 0.4, merged)
     handles = (edge_handles(control, ratios), vertex_handles(control)) if turn == 0.0 else ()
     bounds = room_to_turn(nets_of(spline, control.vertices))
     body = Space("body", bounds, (*surface, *handles), True)
     caption = (
-        f"{count_words(spline)}; blend ratio {ratio:.2g}",
+        f"{count_words(spline, merged)}; blend ratio {ratio:.2g}",
         distortion_words(spline, control.vertices, texture),
     )
     return Figure((body,), caption)
@@ -106,3 +108,5 @@ def claims() -> Iterator[Claim]:
     statement = "patches: 8 for each edge of the mesh; edges without a neighbour"
     counted = [len(surface_spline(t).facet), len(report.free)]
     yield Claim("Fig. 8", statement, [8 * 136, 0], counted, 0)
+    statement = "patches if those that are one are one"
+    yield Claim("Fig. 8", statement, 704, len(merging_of(surface_spline(t))), 0)

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 
 import numpy as np
 
+from ...geometry.body import Body
 from ...geometry.evaluate import evaluate, project
 from ...geometry.meshes import MESHES
 from ...geometry.patch_joins import joins
@@ -16,6 +17,9 @@ from ..attachments import Checks, attachment
 from ..claims import Claim
 from ..layers import Color, Figure, Layer, Space
 from ..legend import legend
+from ..merged import Merged
+from ..mesh_files import mesh_of
+from ..parameters import MeshFile, Presets
 from ..registry import scene
 from ..splines import (
     IDENTITY,
@@ -24,7 +28,6 @@ from ..splines import (
     OF_EDGE,
     OF_FACE,
     OF_VERTEX,
-    BuiltIn,
     Creases,
     Map,
     Moved,
@@ -62,15 +65,19 @@ TITLES = {
     plates=(("step=all",), ("ratio=0.2",), ("ratio=0.2", "texture=identity")),
 )
 def fig9(
-    mesh: Annotated[BuiltIn, "the control mesh"] = "cube",
+    mesh: Annotated[
+        str, Presets(tuple(MESHES)), MeshFile(), "the control mesh, or a file with one (.obj, .bv)"
+    ] = "cube",
     step: Annotated[Step, "one step of the construction, or all side by side"] = "patches",
     ratio: Ratio = 0.5,
     texture: Map = "layout",
     checks: Checks = 4,
     creases: Creases = NO_CREASES,
     moved: Moved = NONE_MOVED,
+    merged: Merged = False,
+    file: Body | None = None,
 ) -> Figure:
-    control = moved_mesh(built_in(mesh), moved)
+    control = moved_mesh(mesh_of(file, "mesh") if file else built_in(mesh), moved)
     ratios = ratios_of(control.topology, ratio, creases)
     spline = spline_of(control.topology, ratios)
     picture = attachment(checks, "", "repeat", "smooth")
@@ -82,7 +89,7 @@ def fig9(
             return cut_layers(control, spline)
         if name == "nets":
             return net_layers(control, spline)
-        surface = patch_layers(spline, control.vertices, texture, picture)
+        surface = patch_layers(spline, control.vertices, texture, picture, merged=merged)
         return (*surface, edges_of(control, width=0.6))
 
     handles = (edge_handles(control, ratios), vertex_handles(control))
@@ -93,7 +100,7 @@ def fig9(
         strip = legend(f"{name}-words", TITLES[name], _entries(name), side, side)
         panels.append((strip, Space(name, control.vertices, content, True, below=True)))
     caption = (
-        f"{count_words(spline)}; blend ratio {ratio:.2g}",
+        f"{count_words(spline, merged)}; blend ratio {ratio:.2g}",
         distortion_words(spline, control.vertices, texture),
     )
     return Figure(_columns(panels), caption)

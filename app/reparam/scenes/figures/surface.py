@@ -10,7 +10,7 @@ import numpy as np
 
 from ...geometry.body import Body, with_points
 from ...geometry.evaluate import sample_surface
-from ...geometry.mesh import Mesh, mesh
+from ...geometry.mesh import Mesh
 from ...geometry.surface_spline import SurfaceSpline
 from .. import palette
 from ..attachments import Checks, Filter, Image, Wrap, attachment
@@ -28,6 +28,8 @@ from ..layers import (
     Texture,
 )
 from ..legend import legend
+from ..merged import Merged, shown
+from ..mesh_files import mesh_of
 from ..parameters import Points
 from ..registry import scene
 from ..remember import remember
@@ -76,17 +78,21 @@ def surface(
     creases: Creases = NO_CREASES,
     vertices: Vertices = NONE_MOVED,
     edges: Annotated[Literal["plain", "joins"], "or coloured by how patches join there"] = "plain",
+    merged: Merged = False,
 ) -> Figure:
     """From .bv files as they are; polyhedra may be the control mesh of a surface spline."""
     picture = attachment(checks, image, wrap, filter)
     if smooth != "off":
-        control = moved_mesh(mesh_of(body), vertices, "vertices")
+        control = moved_mesh(mesh_of(body, "smooth"), vertices, "vertices")
         spline = spline_of(control.topology, ratios_of(control.topology, ratio, creases))
         chosen = "layout" if smooth == "layout" else texture
-        figure = smoothed(control, spline, chosen, picture, 0.5 if edges == "plain" else 0.0)
-        caption = f"{count_words(spline)}; blend ratio {ratio:.2g}"
+        outline = 0.5 if edges == "plain" else 0.0
+        figure = smoothed(control, spline, chosen, picture, outline, merged)
+        caption = f"{count_words(spline, merged)}; blend ratio {ratio:.2g}"
         figure = replace(figure, caption=(caption, *figure.caption))
-        return with_joins(figure, nets_of(spline, control.vertices)) if edges == "joins" else figure
+        if edges == "plain":
+            return figure
+        return with_joins(figure, shown(spline, nets_of(spline, control.vertices), None, merged)[0])
     nets = edited(body, moved)
     points = sampled(nets)
     spatial = bool(np.any(nets[..., 2] != 0.0))
@@ -124,28 +130,22 @@ def outlines(nets: Array) -> tuple[IsoLines, ...]:
 
 
 def smoothed(
-    control: Mesh, spline: SurfaceSpline, texture: str, picture: Picture, outline: float
+    control: Mesh,
+    spline: SurfaceSpline,
+    texture: str,
+    picture: Picture,
+    outline: float,
+    merged: bool,
 ) -> Figure:
     """The surface spline over the file's polyhedron, with its mesh around it."""
     layers = (
-        *patch_layers(spline, control.vertices, texture, picture, outline),
+        *patch_layers(spline, control.vertices, texture, picture, outline, merged),
         edges_of(control, width=0.4),
         edge_handles(control, spline.ratios),
         vertex_handles(control, "vertices"),
     )
     caption = distortion_words(spline, control.vertices, texture)
     return Figure((Space("physical", control.vertices, layers, True),), (caption,))
-
-
-@remember
-def mesh_of(body: Body) -> Mesh:
-    """The file's polyhedron as a mesh. Raises ValueError where there is none, or a bad one."""
-    if body.polyhedron is None:
-        raise ValueError("smooth: expected a file with a polyhedron, found Bezier patches alone")
-    try:
-        return mesh(body.polyhedron.vertices, body.polyhedron.faces)
-    except ValueError as fault:
-        raise ValueError(f"smooth: {fault}") from None
 
 
 @remember
