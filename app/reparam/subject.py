@@ -5,12 +5,14 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 from .errors import FileFormatError, UsageError
 from .files.progress import Progress, silent
 from .files.saved import is_saved
+from .geometry.body import Body
 from .geometry.camera import View
 from .scenes.cursor import Cursor, is_linked, marked, parse, within
 from .scenes.display import Display
@@ -56,7 +58,8 @@ class Subject:
         return self.changed("cursor", within(figure, cursor).text)
 
     def _unmarked(self) -> Figure:
-        return _figure(self.scene, self.values, self.data, self.display.linked)
+        data = _with_meshes(self.scene, self.values, self.data)
+        return _figure(self.scene, self.values, data, self.display.linked)
 
     def parameters(self) -> dict[str, Parameter]:
         """The scene's parameters, then the display's."""
@@ -100,6 +103,39 @@ def _figure(
 ) -> Figure:
     figure = scene({**values, **data})
     return linked(figure) if beside else figure
+
+
+@remember
+def _with_meshes(
+    scene: Scene, values: Mapping[str, Any], data: Mapping[str, Any]
+) -> Mapping[str, Any]:
+    """The data, and of a file that a parameter names what is in it."""
+    for name, parameter in scene.parameters.items():
+        if parameter.mesh and values[name] not in parameter.presets:
+            path = Path(values[name])
+            if path.suffix.lower() not in (".obj", ".bv") and not os.path.exists(path):
+                raise UsageError(f"{name}: expected {parameter.expected()}, found {values[name]!r}")
+            data = {**data, "file": _mesh_file(path, _changed_at(path))}
+    return data
+
+
+def _changed_at(path: Path) -> int:
+    try:
+        return path.stat().st_mtime_ns
+    except OSError:  # reading it says what is wrong
+        return 0
+
+
+@lru_cache(maxsize=4)
+def _mesh_file(path: Path, changed_at: int) -> Body:  # noqa: ARG001
+    """What is in the file; read again when it has changed."""
+    if path.suffix.lower() == ".obj":
+        from .files.obj import read_obj
+
+        return read_obj(path)
+    from .files.bv import read_bv
+
+    return read_bv(path)
 
 
 def without_bad_pictures(subject: Subject) -> tuple[Subject, list[str]]:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from reparam.cli import main
 from reparam.errors import FileFormatError, UsageError
 from reparam.files.bv import read_bv
 from reparam.files.obj import read_obj
@@ -78,11 +80,60 @@ def test_smoothing_what_has_no_good_polyhedron(tmp_path: Path) -> None:
     patch = open_subject(str(written(tmp_path, "4 1 0 0 0 0 1 0 1 0 0 1 1 0", "patch.bv")))
     with pytest.raises(UsageError, match="smooth: expected a file with a polyhedron"):
         patch.assigned(["smooth=on"]).figure()
-    crowded = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 2 1 4\nf 1 2 5\n"
-    subject = open_subject(str(written(tmp_path, crowded)))
-    assert len(nets_of(subject.assigned(["smooth=off"]))) == 3
-    with pytest.raises(UsageError, match="smooth: edge 0-1: expected at most two faces, found the"):
-        subject.figure()
+
+
+FIVE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\n"
+BAD_MESHES = {
+    "crowded.obj": (
+        FIVE + "f 1 2 3\nf 2 1 4\nf 1 2 5\n",
+        8,
+        "edge 1-2: expected at most two faces, found the faces of lines 6, 7, 8",
+    ),
+    "turned.obj": (
+        FIVE + "\nf 1 2 3\nf 1 2 4\n",
+        8,
+        "edge 1-2: expected faces that run along it in opposite directions, found the faces of "
+        "lines 7, 8",
+    ),
+    "fans.obj": (
+        FIVE + "f 1 2 3\nf 1 4 5\n",
+        6,
+        "vertex 1: expected one fan of faces, found that face apart from the others",
+    ),
+    "crowded.bv": (
+        "1 5 3\n0 0 0 1 0 0\n0 1 0 0 0 1\n0 -1 0\n3 0 1 2\n3 1 0 3 3 0 1\n4\n",
+        6,
+        "edge 0-1: expected at most two faces, found the faces of lines 5, 6",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BAD_MESHES)
+def test_a_mesh_that_is_no_surface(
+    tmp_path: Path, name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text, line, words = BAD_MESHES[name]
+    path = written(tmp_path, text, name)
+    assert len(nets_of(open_subject(str(path)).assigned(["smooth=off"]))) >= 2
+    for arguments in ([str(path), "--set", "smooth=on"], ["fig9", "--set", f"mesh={path}"]):
+        assert main(["joins", *arguments]) == FileFormatError.exit_code
+        assert capsys.readouterr().err == f"reparam: {path}:{line}: {words}\n"
+
+
+def test_fig9_of_a_file(tmp_path: Path) -> None:
+    path = written(tmp_path, CUBE)
+    subject = open_subject("fig9").assigned([f"mesh={path}", "step=all", "creases=[[0,1,0.1]]"])
+    built_in = open_subject("fig9").assigned(["step=all", "creases=[[0,1,0.1]]"])
+    assert len(subject.figure().spaces) == len(built_in.figure().spaces) == 8
+    assert subject.figure().caption[0] == built_in.figure().caption[0]
+    path.write_text(CUBE + "f 1 2 3\n")
+    os.utime(path, (1, 1))
+    with pytest.raises(FileFormatError, match="at most two faces"):
+        subject.changed("step", "mesh").figure()  # it is read again
+    with pytest.raises(UsageError, match=r"mesh: expected cube, .* or a file .*, found 'cub'"):
+        open_subject("fig9").assigned(["mesh=cub"]).figure()
+    with pytest.raises(FileFormatError, match="found no file"):
+        open_subject("fig9").assigned(["mesh=none.obj"]).figure()
 
 
 @pytest.mark.parametrize(

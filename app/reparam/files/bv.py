@@ -54,6 +54,7 @@ def read_bv(path: str | os.PathLike[str], progress: Progress = silent) -> Body:
     patches: list[Patch] = []
     vertices: list[Array] = []
     faces: list[list[int]] = []
+    places: list[tuple[Numbers, int]] = []  # where each face begins
     rational: list[tuple[Array, Numbers, int]] = []
     told = 0
     for group, numbers in runs(path, read_text(path), progress):
@@ -68,6 +69,7 @@ def read_bv(path: str | os.PathLike[str], progress: Progress = silent) -> Body:
                 patches += face_patches(points, corners, group)
                 before = sum(map(len, vertices))
                 vertices.append(points)
+                places += _places(numbers, corners)
                 faces += [[before + corner for corner in face] for face in corners]
             else:
                 patches += SEGMENTS[kind](numbers, group)
@@ -78,7 +80,7 @@ def read_bv(path: str | os.PathLike[str], progress: Progress = silent) -> Body:
     if not patches:
         raise numbers.error(numbers.position, "a patch")
     try:
-        return body(patches, Polyhedron(np.concatenate(vertices), faces) if faces else None)
+        return body(patches, _polyhedron_of(path, vertices, faces, places) if faces else None)
     except ValueError as fault:
         for net, numbers, end in rational:
             _refuse_bad_point(net, numbers, end - net.size)
@@ -129,6 +131,26 @@ def _polyhedron(numbers: Numbers) -> tuple[Array, list[list[int]]]:
             raise numbers.error(numbers.position - 1, f"at most {MAX_PATCHES} triangles", "more")
         faces.append(face)
     return vertices, faces
+
+
+def _places(numbers: Numbers, faces: list[list[int]]) -> list[tuple[Numbers, int]]:
+    """Where each of the faces just read begins."""
+    lengths = [1 + len(face) for face in faces]
+    starts = numbers.position - sum(lengths) + np.cumsum([0, *lengths[:-1]])
+    return [(numbers, int(start)) for start in starts] if faces else []
+
+
+def _polyhedron_of(
+    path: Path,
+    vertices: list[Array],
+    faces: list[list[int]],
+    places: list[tuple[Numbers, int]],
+) -> Polyhedron:
+    def line(face: int) -> int:
+        numbers, start = places[face]
+        return numbers.line(start)
+
+    return Polyhedron(np.concatenate(vertices), faces, str(path), 0, line)
 
 
 def _triangle(numbers: Numbers, group: str) -> list[Patch]:

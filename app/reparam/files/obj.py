@@ -34,19 +34,22 @@ def read_obj(path: str | os.PathLike[str]) -> Body:
     path = Path(path)
     vertices: list[tuple[float, float, float]] = []
     faces: list[list[int]] = []
+    lines: list[int] = []
     line = 0
     for line, words in _lines(read_text(path, ".obj")):
         if words[0] == "v":
             vertices.append(_vertex(path, line, words[1:]))
         elif words[0] == "f":
             faces.append(_face(path, line, words[1:], len(vertices)))
+            lines.append(line)
             if len(faces) > MAX_PATCHES:
                 raise FileFormatError(f"{path}:{line}: expected at most {MAX_PATCHES} faces")
     if not faces:
         raise FileFormatError(f"{path}:{max(line, 1)}: expected a face, found none")
     points = np.array(vertices)
     try:
-        return body(face_patches(points, faces), Polyhedron(points, faces))
+        polyhedron = Polyhedron(points, faces, str(path), 1, lines.__getitem__)
+        return body(face_patches(points, faces), polyhedron)
     except ValueError as fault:
         raise FileFormatError(f"{path}: {fault}") from None
 

@@ -145,6 +145,10 @@ class Numbers:
         """The next number, an integer from `low` to `high`, else FileFormatError."""
         return self.integers(1, expected, low, high)[0]
 
+    def line(self, index: int) -> int:
+        """The line of the file in which word `index` of the run stands."""
+        return _line(self._data, self._word(index)[0])
+
     def error(self, index: int, expected: str, found: str = "") -> FileFormatError:
         """The error `file:line: expected ..., found ...` for word `index` of the run."""
         offset, word = self._word(index)

@@ -7,7 +7,7 @@ evaluator draws everything.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from itertools import chain
@@ -45,10 +45,16 @@ class Patch:
 
 @dataclass(frozen=True, eq=False)
 class Polyhedron:
-    """Vertices (V, 3) and faces, lists of indices counter-clockwise from outside; not checked."""
+    """Vertices (V, 3) and faces, lists of indices counter-clockwise from outside; not checked.
+
+    Of a file: its name, where the first vertex has the number `first`, and the line of a face.
+    """
 
     vertices: Array
     faces: Sequence[Sequence[int]]
+    source: str = ""
+    first: int = 0
+    line: Callable[[int], int] = lambda _: 0
 
 
 @dataclass(frozen=True, eq=False)

@@ -26,6 +26,34 @@ Indices = NDArray[np.intp]
 MAX_HALF_EDGES = 1 << 22
 
 
+class MeshError(ValueError):
+    """No oriented 2-manifold: what was expected at a face, edge or vertex, and what was found.
+
+    `numbers` are those of the face, or of the vertices of the edge; `faces` those that disagree.
+    """
+
+    def __init__(
+        self,
+        place: str,
+        numbers: Sequence[int],
+        expected: str,
+        found: str = "",
+        faces: Sequence[int] = (),
+    ) -> None:
+        self.place = place
+        self.numbers = tuple(numbers)
+        self.expected = expected
+        self.found = found or "the faces " + ", ".join(map(str, faces))
+        self.faces = tuple(faces)
+        super().__init__(self.told())
+
+    def told(self, first: int = 0, found: str = "") -> str:
+        """The fault as a line, where the first vertex has that number; `found` in other words."""
+        first = 0 if self.place == "face" else first
+        names = "-".join(str(number + first) for number in self.numbers)
+        return f"{self.place} {names}: expected {self.expected}, found {found or self.found}"
+
+
 @dataclass(frozen=True, eq=False)
 class Topology:
     """Faces without positions: `origin` (H,) face after face, `starts` (F+1,) of the faces in it.
@@ -111,7 +139,7 @@ class Topology:
     def around(self) -> Indices:
         """All corners, vertex by vertex, counter-clockwise, on the boundary from its outgoing edge.
 
-        Raises ValueError naming a vertex whose faces do not form one fan.
+        Raises MeshError naming a vertex whose faces do not form one fan.
         """
         used, first = np.unique(self.origin, return_index=True)
         start = np.full(self.vertex_count, -1)
@@ -128,8 +156,9 @@ class Topology:
             step += 1
         if (place < 0).any():
             lost = int(np.argmin(place))
-            faces = f"the face {self.face[lost]} is not in the fan of the others there"
-            raise ValueError(f"vertex {self.origin[lost]}: expected one fan of faces; {faces}")
+            number, alone = int(self.origin[lost]), int(self.face[lost])
+            found = f"the face {alone} apart from the others"
+            raise MeshError("vertex", [number], "one fan of faces", found, [alone])
         return np.lexsort([place, self.origin])
 
     def euler_characteristic(self) -> int:
@@ -159,28 +188,27 @@ class Mesh:
 def mesh(vertices: ArrayLike, faces: Sequence[Sequence[int]]) -> Mesh:
     """An oriented 2-manifold, faces counter-clockwise from outside.
 
-    Raises ValueError, one line that names the face, edge or vertex: NaN, an index out of range, a
+    Raises MeshError, one line that names the face, edge or vertex: NaN, an index out of range, a
     face with fewer than three or repeated corners, an edge used thrice, neighbours of opposite
-    orientation, faces that meet in a vertex alone.
+    orientation, faces that meet in a vertex alone; ValueError where there is no face.
     """
     points = np.array(vertices, dtype=np.float64)
     if points.ndim != 2 or points.shape[1] != 3:
         raise ValueError(f"expected vertices of shape (V, 3), found {points.shape}")
     if not np.isfinite(points).all():
         row, axis = np.argwhere(~np.isfinite(points))[0]
-        raise ValueError(f"vertex {row}: expected finite numbers, found {points[row, axis]:g}")
+        raise MeshError("vertex", [int(row)], "finite numbers", f"{points[row, axis]:g}")
     return Mesh(points, topology(faces, len(points)))
 
 
 def topology(faces: Sequence[Sequence[int]], vertex_count: int) -> Topology:
-    """Faces as half-edges, checked; raises ValueError as `mesh` does."""
+    """Faces as half-edges, checked; raises as `mesh` does."""
     if not len(faces):
         raise ValueError("expected at least one face, found none")
     for number, face in enumerate(faces):
         if len(face) < 3 or len(set(face)) < len(face):
-            raise ValueError(
-                f"face {number}: expected at least 3 different corners, found {list(face)}"
-            )
+            found_here = str(list(face))
+            raise MeshError("face", [number], "at least 3 different corners", found_here, [number])
     sizes = np.array([len(face) for face in faces])
     if sizes.sum() > MAX_HALF_EDGES:
         raise ValueError(f"expected at most {MAX_HALF_EDGES} corners, found {sizes.sum()}")
@@ -192,15 +220,15 @@ def topology(faces: Sequence[Sequence[int]], vertex_count: int) -> Topology:
     outside = (found.origin < 0) | (found.origin >= vertex_count)
     if outside.any():
         h = int(np.argmax(outside))
-        expected = f"expected corners from 0 to {vertex_count - 1}"
-        raise ValueError(f"face {found.face[h]}: {expected}, found {found.origin[h]}")
+        number, expected = int(found.face[h]), f"corners from 0 to {vertex_count - 1}"
+        raise MeshError("face", [number], expected, str(found.origin[h]), [number])
     _refuse_crowded_edges(found)
     _ = found.around
     return found
 
 
 def _refuse_crowded_edges(found: Topology) -> None:
-    """ValueError for an edge with three faces, or with two that run the same way along it."""
+    """MeshError for an edge with three faces, or with two that run the same way along it."""
     low = np.minimum(found.origin, found.target)
     high = np.maximum(found.origin, found.target)
     _, edge, uses = np.unique(
@@ -215,6 +243,5 @@ def _refuse_crowded_edges(found: Topology) -> None:
     ):
         if crowded.any():
             h = int(np.argmax(crowded))
-            members = ", ".join(str(f) for f in found.face[group == group[h]])
-            name = f"edge {found.origin[h]}-{found.target[h]}"
-            raise ValueError(f"{name}: expected {expected}, found the faces {members}")
+            ends = int(found.origin[h]), int(found.target[h])
+            raise MeshError("edge", ends, expected, faces=found.face[group == group[h]].tolist())

@@ -47,6 +47,12 @@ class PictureFile:
 
 
 @dataclass(frozen=True)
+class MeshFile:
+    """Marks a text that names a file with a mesh where it is none of the `Presets`; the scene gets
+    what is in it, a Body, as its argument `file`."""
+
+
+@dataclass(frozen=True)
 class Form:
     """Marks a text that must have a form: what is expected, in words, and whether a text is so."""
 
@@ -109,6 +115,7 @@ class Parameter:
     points: Points | None = None  # an array
     form: Form | None = None  # of a text
     presets: tuple[str, ...] = ()  # texts with a name; the scene says what others it takes
+    mesh: bool = False  # other texts are names of mesh files
 
     def expected(self) -> str:
         """The values it takes, in words."""
@@ -119,7 +126,8 @@ class Parameter:
         if self.choices:
             return " or ".join(self.choices)
         if self.presets:
-            return f"{', '.join(self.presets)} or another text"
+            other = "a file (.obj, .bv)" if self.mesh else "another text"
+            return f"{', '.join(self.presets)} or {other}"
         if self.type is bool:
             return "0 or 1"
         kind = {int: "a whole number", float: "a number", str: "a text"}[self.type]
@@ -246,8 +254,9 @@ def _parameter(name: str, hint: Any, default: Value) -> Parameter | None:
     picture = any(isinstance(extra, PictureFile) for extra in extras)
     form = next((extra for extra in extras if isinstance(extra, Form)), None)
     presets = next((extra.names for extra in extras if isinstance(extra, Presets)), ())
+    mesh = any(isinstance(extra, MeshFile) for extra in extras)
     return Parameter(
-        name, kind, default, choices, interval, text, picture, form=form, presets=presets
+        name, kind, default, choices, interval, text, picture, form=form, presets=presets, mesh=mesh
     )
 
 
