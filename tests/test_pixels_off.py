@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from reparam.accuracy import Accuracy
@@ -41,8 +43,36 @@ def test_the_table(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_a_broken_promise_fails() -> None:
-    kept = Accuracy(1, "vertex", 1, 2, 3, 0.1, 0.5, 0.9, 0.5)
+    kept = Accuracy(1, "vertex", 1, 2, 3, 0.1, 0.5, 0.9, None, 0.5, 0.5)
     assert kept.ok
-    broken = Accuracy(1, "vertex", 1, 2, 3, 0.1, 0.51, 0.9, 0.5)
-    assert not broken.ok
-    assert broken.line().startswith("FAIL")
+    for name in ("most", "picture", "silhouette"):
+        broken = replace(kept, **{name: 0.51})
+        assert not broken.ok
+        assert broken.line().startswith("FAIL")
+
+
+def test_coarse_outlines_and_pictures_are_seen(capsys: pytest.CaptureFixture[str]) -> None:
+    """Two steps of the side (V, (3 - V^2) / 2) cut off 1/8 of a unit, by a chord of slope 1/2. What
+    is attached by r lies right however few steps there are, what is by the identity does not."""
+    (row,) = rows(capsys, "fig5", "--set", "level=2", "--evaluator", "vertex")
+    unit = 256 / (3 * 1.08)
+    assert row["silhouette"] == pytest.approx(unit / 8 / 1.25**0.5, abs=1 / 16)
+    assert row["picture"] == pytest.approx(row["most"], rel=1e-6)
+    (own,) = rows(capsys, "fig5", "--set", "level=2", "--set", "texture=r", "--evaluator", "vertex")
+    assert own["most"] == row["most"]
+    assert own["picture"] is None or own["picture"] < 0.01
+
+
+def test_outlines_of_bodies_fall_with_the_square_of_the_steps(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    words = ("fig7", "--evaluator", "vertex", "--set", "perspective=40", "--set")
+    coarse, fine = (rows(capsys, *words, f"level={level}") for level in (3, 6))
+    ratios = [a["silhouette"] / b["silhouette"] for a, b in zip(coarse, fine, strict=True)]
+    assert len(ratios) == 4
+    assert 3.0 < np.mean(ratios) < 5.0
+
+
+def test_nothing_to_measure_is_said(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["accuracy", "staircase"]) == 0
+    assert capsys.readouterr().out == "staircase has no surface: nothing to measure\n"

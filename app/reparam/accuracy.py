@@ -1,4 +1,5 @@
-"""`reparam accuracy`: how far off drawn points are, in pixels, measured at every fragment."""
+"""`reparam accuracy`: how many pixels drawn points are off, measured at every fragment, what a
+picture shows on the surface, and the outline."""
 
 from __future__ import annotations
 
@@ -8,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from .gpu.accuracy import deviations
+from .geometry.net import Array
+from .gpu.accuracy import Drawn, deviations, picture_deviations, silhouette
 from .gpu.adaptive import Tolerance, uniform_plan
 from .gpu.arrangement import arrange
 from .scenes.layers import Patches
@@ -20,8 +22,9 @@ FORGIVEN = 1e-4  # share of the fragments: triangles thinner than the rasteriser
 
 @dataclass(frozen=True)
 class Accuracy:
-    """A layer drawn alone: pixels between a fragment's centre and the exact surface point of its
-    own patch and (u, v). That bounds the outline's deviation too."""
+    """A layer drawn alone, without its trims: pixels between a fragment's centre and the exact
+    surface point of its own patch and (u, v); the same for what its picture shows there, if it has
+    a map of its own; and between the drawn outline and the exact one (gpu/accuracy.py)."""
 
     layer: int
     evaluator: str
@@ -31,12 +34,15 @@ class Accuracy:
     mean: float
     most: float  # of all fragments but the FORGIVEN share
     worst: float
+    picture: float | None  # as `most`
+    silhouette: float
     tolerance: float  # 0: one level, and nothing is promised
 
     @property
     def ok(self) -> bool:
         """Whether the tolerance is kept."""
-        return not self.tolerance or self.most <= self.tolerance
+        most = max(self.most, self.picture or 0.0, self.silhouette)
+        return not self.tolerance or most <= self.tolerance
 
     def row(self) -> dict[str, Any]:
         """As JSON has it."""
@@ -46,11 +52,12 @@ class Accuracy:
         """As the table has it."""
         asked = f"<= {self.tolerance:g}" if self.tolerance else "one level"
         verdict = "ok  " if self.ok else "FAIL"
+        picture = "" if self.picture is None else f"  picture {self.picture:.4f}"
         return (
             f"{verdict} layer {self.layer} {self.evaluator:12} {self.patches:6} patches "
             f"{self.triangles:9} triangles {self.fragments:8} fragments   "
             f"pixels off: mean {self.mean:.4f}  most {self.most:.4f}  worst {self.worst:.4f}"
-            f"   {asked}"
+            f"{picture}  outline {self.silhouette:.4f}   {asked}"
         )
 
 
@@ -74,10 +81,34 @@ def measure(studio: Studio, subject: Subject, size: tuple[int, int]) -> Iterator
                 if display.tolerance
                 else uniform_plan(layer, display.level)
             )
-            off = deviations(painter, layer, panel.camera, evaluator, plan, size)
-            off = off if len(off) else np.zeros(1)
-            most = float(np.quantile(off, 1.0 - FORGIVEN))
-            yield Accuracy(
-                number, evaluator, len(plan.patches), plan.triangles(), len(off),
-                float(off.mean()), most, float(off.max()), display.tolerance,
-            )  # fmt: skip
+            yield measured(
+                number,
+                Drawn(painter, layer, panel.camera, evaluator, plan, size),
+                display.tolerance,
+            )
+
+
+def measured(number: int, drawn: Drawn, tolerance: float) -> Accuracy:
+    """One layer by one evaluator."""
+    off, texture = deviations(drawn), drawn.layer.texture
+    off = off if len(off) else np.zeros(1)
+    picture = None
+    if texture is not None and not texture.exact and texture.net is not drawn.layer.net:
+        picture = _most(picture_deviations(drawn))
+    return Accuracy(
+        layer=number,
+        evaluator=drawn.evaluator,
+        patches=len(drawn.plan.patches),
+        triangles=drawn.plan.triangles(),
+        fragments=len(off),
+        mean=float(off.mean()),
+        most=_most(off),
+        worst=float(off.max()),
+        picture=picture,
+        silhouette=silhouette(drawn),
+        tolerance=tolerance,
+    )
+
+
+def _most(off: Array) -> float:
+    return float(np.quantile(off, 1.0 - FORGIVEN)) if len(off) else 0.0

@@ -17,7 +17,7 @@ from reparam.geometry.net import Array
 from reparam.geometry.planar_maps import R
 from reparam.geometry.surface_spline import surface_spline
 from reparam.geometry.torus import two_halves
-from reparam.gpu.accuracy import deviations
+from reparam.gpu.accuracy import Drawn, deviations
 from reparam.gpu.adaptive import Plan, Tolerance, uniform_plan
 from reparam.scenes.layers import Patches
 from reparam.snapshot import Studio
@@ -92,7 +92,7 @@ def compare(studio: Studio, name: str, layer: Patches, camera: Camera, goal: flo
 
 def most_off(studio: Studio, layer: Patches, camera: Camera, plan: Plan) -> float:
     """Pixels that a drawn point is off, but for the share that `reparam accuracy` forgives."""
-    off = deviations(studio.painter, layer, camera, "tessellation", plan, SIZE)
+    off = deviations(Drawn(studio.painter, layer, camera, "tessellation", plan, SIZE))
     return float(np.quantile(off, 1.0 - FORGIVEN)) if len(off) else 0.0
 
 
@@ -100,5 +100,5 @@ def triangles(studio: Studio, layer: Patches, camera: Camera, plan: Plan) -> int
     """Counted by OpenGL."""
     query = studio.ctx.query(primitives=True)
     with query:
-        deviations(studio.painter, layer, camera, "tessellation", plan, SIZE)
+        deviations(Drawn(studio.painter, layer, camera, "tessellation", plan, SIZE))
     return int(query.primitives)

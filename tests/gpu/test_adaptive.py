@@ -13,7 +13,7 @@ from reparam.geometry.camera import Camera, View, frame
 from reparam.geometry.evaluate import sample_surface
 from reparam.geometry.net import Array, control_net, raise_degree
 from reparam.geometry.planar_maps import R
-from reparam.gpu.accuracy import deviations
+from reparam.gpu.accuracy import Drawn, deviations
 from reparam.gpu.adaptive import Tolerance
 from reparam.gpu.painter import Painter
 from reparam.scenes.layers import Patches
@@ -50,7 +50,7 @@ def test_every_fragment_is_within_the_tolerance(
     found = []
     for camera in views(nets, 2, zoom):
         plan = adaptive.plan(layer, camera, evaluator, Tolerance(1.0, SIZE))
-        found.append(deviations(studio.painter, layer, camera, evaluator, plan, SIZE))
+        found.append(deviations(Drawn(studio.painter, layer, camera, evaluator, plan, SIZE)))
     off = np.concatenate(found)
     assert len(off) > 5000
     assert np.mean(off > 1.0) < 1e-4
@@ -62,7 +62,7 @@ def test_too_coarse_a_plan_is_told(studio: Studio, evaluator: str) -> None:
     nets = BODIES["cubic"]
     layer, camera = Patches(nets), views(nets, 1)[0]
     plan = studio.painter.surfaces.adaptive.plan(layer, camera, evaluator, Tolerance(20.0, SIZE))
-    off = deviations(studio.painter, layer, camera, evaluator, plan, SIZE)
+    off = deviations(Drawn(studio.painter, layer, camera, evaluator, plan, SIZE))
     assert 1.0 < np.quantile(off, 0.99) < 20.0
 
 

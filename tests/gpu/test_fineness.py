@@ -11,7 +11,7 @@ from reparam.geometry.evaluate import sample_surface
 from reparam.geometry.levels import balance, level_coefficients, out_of_view, pixels_a_unit
 from reparam.geometry.net import Array
 from reparam.gpu.fineness import Fineness
-from reparam.scenes.layers import Patches, Picture, Texture
+from reparam.scenes.layers import Patches, Picture, Ramp, Texture
 from reparam.snapshot import Studio
 
 SIZE = (640, 400)
@@ -63,6 +63,18 @@ def test_a_map_adds_its_own(fineness: Fineness, shared: bool) -> None:
     expected = balance(level_coefficients(seen, HALF, TOLERANCE) + own)
     assert (np.abs(found - expected) <= np.maximum(1, expected // 500)).all()
     assert (expected.prod(-1) > balance(level_coefficients(seen, HALF, TOLERANCE)).prod(-1)).all()
+
+
+def test_a_map_of_the_fragments_adds_nothing(fineness: Fineness) -> None:
+    random = np.random.default_rng(3)
+    nets, maps = (random_nets(random, degrees, True, 20) for degrees in ((1, 2), (3, 2)))
+    camera = view(nets)
+    found = [
+        fineness.read(Patches(nets, Texture(maps, Ramp(0.0, 1.0), exact)), camera, SIZE, TOLERANCE)
+        for exact in (True, False)
+    ]
+    assert (found[0] == fineness.read(Patches(nets), camera, SIZE, TOLERANCE)).all()
+    assert (found[0] < found[1]).any()
 
 
 def test_out_of_view(fineness: Fineness) -> None:

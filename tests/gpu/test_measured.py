@@ -14,7 +14,7 @@ from truth import random_nets
 from reparam.geometry.camera import Camera, View, frame
 from reparam.geometry.evaluate import sample_surface
 from reparam.geometry.levels import grid_levels
-from reparam.gpu.accuracy import deviations, located, surface_points
+from reparam.gpu.accuracy import Drawn, deviations, located, surface_points
 from reparam.gpu.adaptive import Plan, Tolerance, uniform_plan
 from reparam.gpu.surfaces import Fine
 from reparam.scenes.layers import Patches
@@ -72,9 +72,10 @@ def test_error_colours_are_the_float64_distance(
 ) -> None:
     camera = frame(sample_surface(NETS), *SIZE, View(zoom), True)
     plan = planned(studio, camera, evaluator, fine)
-    places = located(studio.painter, Patches(NETS), camera, evaluator, plan, SIZE)
+    alone = Drawn(studio.painter, Patches(NETS), camera, evaluator, plan, SIZE)
+    places, _ = located(alone)
     rows, columns = np.nonzero(places[..., 3] == 1.0)
-    exact = camera.pixels(surface_points(NETS, places[rows, columns]), *SIZE)
+    exact = surface_points(alone, places[rows, columns])
     off = np.linalg.norm(exact - np.stack([columns, rows], -1) - 0.5, axis=-1)
     scale = float(np.quantile(off, 0.7))
     found = drawn(studio, target, camera, evaluator, fine, ("error", scale))[rows, columns]
@@ -97,7 +98,8 @@ def test_level_colours_are_the_plan_s(
     inner, edges = plan.inner, plan.edges
     if evaluator == "vertex" and not isinstance(fine, int):
         inner, edges = grid_levels(inner, edges)
-    places = located(studio.painter, Patches(NETS), camera, evaluator, plan, SIZE)
+    alone = Drawn(studio.painter, Patches(NETS), camera, evaluator, plan, SIZE)
+    places, _ = located(alone)
     found = drawn(studio, target, camera, evaluator, fine, ("level", 1e9))  # as wide as may be
     patch, u, v = np.moveaxis(places[..., :3], -1, 0)
     covered = places[..., 3] == 1.0
@@ -130,7 +132,7 @@ def test_with_multisampling_no_error_is_made_up(studio: Studio) -> None:
     for evaluator in EVALUATORS:
         tolerance, layer = Tolerance(1.0, SIZE), Patches(nets)
         plan = studio.painter.surfaces.adaptive.plan(layer, camera, evaluator, tolerance)
-        off = deviations(studio.painter, layer, camera, evaluator, plan, SIZE)
+        off = deviations(Drawn(studio.painter, layer, camera, evaluator, plan, SIZE))
         worst = 2.0 * float(np.quantile(off, 0.999))
         with studio.ctx.scope(target, moderngl.DEPTH_TEST):
             target.clear(1.0, 1.0, 1.0)

@@ -62,6 +62,7 @@ VARIANTS: list[tuple[tuple[str, ...], dict[str, Any]]] = [
     *(((*TESSELLATION, "patch.frag"), look | LOW | ADAPTIVE) for look in LOOKS),
     (("adaptive.vert", "located.frag"), LOCATED),
     ((*TESSELLATION, "located.frag"), LOCATED),
+    (("adaptive.vert", "located.frag"), LOCATED | LOW | {"TEXTURED": 1}),
     (("levels.vert",), {}),
     (("levels.vert",), {"TEXTURED": 1}),
     *(

@@ -29,4 +29,6 @@ def run(options: argparse.Namespace) -> int:
             print(accuracy.line(), flush=True)
     if options.json:
         print_json([accuracy.row() for accuracy in found])
+    elif not found:
+        print(f"{options.subject} has no surface: nothing to measure")
     return 0 if all(accuracy.ok for accuracy in found) else 1

@@ -27,8 +27,10 @@ class Fineness:
         self, layer: Patches, camera: Camera, viewport: tuple[int, int], tolerance: float
     ) -> moderngl.Buffer:
         """Steps in u and v of each patch, float32 (patches, 2); (0, 0) for one out of view."""
-        # By its own position a map is off as much as the point is: the picture stays in place.
-        sought = layer.texture.net if layer.texture else layer.net
+        # By its own position a map is off as much as the point is: the picture stays in place. What
+        # fragments look up by themselves is not off at all.
+        texture = layer.texture
+        sought = layer.net if texture is None or texture.exact else texture.net
         textured = sought is not layer.net
         program = self._programs.get(
             "levels.vert", defines={"TEXTURED": 1} if textured else {}, varyings=("steps",)
