@@ -14,14 +14,20 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 @pytest.fixture(scope="session")
-def studio() -> Studio:
-    """One headless context for all tests of a process."""
+def one_studio() -> Studio:
     return Studio()
+
+
+@pytest.fixture
+def studio(one_studio: Studio) -> Studio:
+    """One headless context for all tests of a process, current whatever others have made."""
+    one_studio.ctx.__enter__()  # type: ignore[no-untyped-call]
+    return one_studio
 
 
 @pytest.fixture(autouse=True)
 def no_opengl_error(request: pytest.FixtureRequest) -> Iterator[None]:
     """A test that draws leaves no OpenGL error behind."""
     yield
-    if "studio" in request.fixturenames:
-        assert request.getfixturevalue("studio").ctx.error == "GL_NO_ERROR"
+    if "one_studio" in request.fixturenames:
+        assert request.getfixturevalue("one_studio").ctx.error == "GL_NO_ERROR"

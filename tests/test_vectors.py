@@ -35,7 +35,8 @@ def drawn(*layers: object) -> list[Shape]:
     from reparam.gpu.region import Region
 
     camera = Camera(np.eye(3), np.array([200.0, 150.0, 0.0]), 200.0, 150.0, 10.0)
-    panel = Panel(Space("p", plane(0, 0, 1, 1), ()), Region(0, 0, *SIZE), camera)
+    region = Region(0, 0, *SIZE)
+    panel = Panel(Space("p", plane(0, 0, 1, 1), ()), region, camera, region)
     return [shape for layer in layers for shape in _Lines(panel, 1.0).shapes(layer)]  # type: ignore[arg-type]
 
 

@@ -24,11 +24,12 @@ PADDING = 10.0
 
 @dataclass(frozen=True)
 class Panel:
-    """A space with where it stands and how it is seen."""
+    """A space with where it stands and how it is seen; its part of the picture, margins and all."""
 
     space: Space
     region: Region
     camera: Camera
+    part: Region
 
 
 def arrange(
@@ -50,12 +51,13 @@ def arrange(
     foot = min(foot, height - 1)
     panels = []
     whole = regions(figure.spaces, width, height - foot, foot)
-    for space, region in zip(figure.spaces, whole, strict=True):
+    for space, part in zip(figure.spaces, whole, strict=True):
         alike = zip(figure.spaces, whole, strict=True)
         narrowest = min(each.width for other, each in alike if other.width == space.width)
-        region = region.inside(figure.spaces, unit, narrowest)
+        region = part.inside(figure.spaces, unit, narrowest)
         view = views.get(space.name, View())
-        panels.append(Panel(space, region, camera(space, region, view, net, field_of_view)))
+        seen = camera(space, region, view, net, field_of_view)
+        panels.append(Panel(space, region, seen, part))
     return panels
 
 

@@ -171,8 +171,7 @@ class Painter:
 
                 draw_label(self.labels, layer, panel, target.size, unit)
         if shading != "light" and not plain:
-            corner = (region.left, region.bottom + region.height)
-            draw_legend(self.labels, panel.space, shading, scale, corner, target.size, unit)
+            draw_legend(self.labels, panel, shading, scale, target.size, unit)
 
     def _draw_layer(
         self,

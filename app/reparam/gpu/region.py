@@ -22,6 +22,11 @@ class Region:
     width: int
     height: int
 
+    @property
+    def top(self) -> int:
+        """Its upper edge."""
+        return self.bottom + self.height
+
     def contains(self, x: float, y: float) -> bool:
         """Whether the pixel is in it."""
         return 0 <= x - self.left < self.width and 0 <= y - self.bottom < self.height

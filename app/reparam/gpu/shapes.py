@@ -23,12 +23,15 @@ from ..scenes.shading import (
     bar_colors,
     ticks,
 )
+from .arrangement import Panel
 from .kept import Kept
-from .labels import Labels
+from .labels import Labels, measure
+from .region import TITLE_LINE
 
 BAR, STEPS = 110.0, 33  # length of the bar of colours, in figure units, and its pieces
 SWATCH, WORDS, LINE = 9.0, 13.0, 17.0
 INSET = 10.0  # from the corner of the space
+VEIL = 4.0  # how far it reaches beyond words and bar
 FACTORS = (1.1, 1.2, 1.5, 2.0, 4.0, 8.0, 16.0, 64.0, 256.0, 1024.0)  # at which colours are full
 SAMPLES = 1 << 14  # of a layer, at most, that tell which values occur
 
@@ -98,16 +101,19 @@ def distortion_scale(shading: Shading, values: Array) -> Scale:
 
 def draw_legend(
     labels: Labels,
-    space: Space,
+    panel: Panel,
     shading: Shading,
     scale: Scale,
-    corner: tuple[float, float],
     size: tuple[int, int],
     unit: float,
 ) -> None:
-    """What the colours of a space mean, below its upper left `corner` (pixels)."""
-    layers = shaded(space, shading)
-    left, top = corner[0] + INSET * unit, corner[1] - INSET * unit
+    """What the colours of a space mean: in its upper left corner, or above its title if there is
+    room for that."""
+    layers = shaded(panel.space, shading)
+    left, top = panel.region.left + INSET * unit, panel.region.top - INSET * unit
+    above = panel.region.top + (TITLE_LINE + 3.0 * LINE) * unit
+    if panel.space.title and panel.part.top >= above:
+        top = above
     if not layers:
         return
     if shading in SYMBOLS:
@@ -135,6 +141,9 @@ def _draw_bar(
     unit: float,
 ) -> None:
     """The colours (k, 3) from the first mark's value to the last one's."""
+    width = max(BAR * unit, measure(words, round(WORDS * unit))) + 2 * VEIL * unit
+    veil = (left - VEIL * unit, top - 3 * LINE * unit, width, 3 * LINE * unit)
+    labels.box(*veil, size, (1.0, 1.0, 1.0, 0.75))  # words stay legible over a surface
     labels.text(words, (left, top - LINE / 2 * unit), size, WORDS * unit, palette.INK, (0.0, 0.5))
     y = top - 1.5 * LINE * unit
     first, last = marks[0][0], marks[-1][0]
