@@ -25,7 +25,11 @@ out vec3 normal;
 #endif
 
 void main() {
+#ifdef INSTANCED
+    const int patch_index = 0;
+#else
     int patch_index = first_patch + gl_InstanceID;
+#endif
 #ifdef NORMALS
     normal = surface_normal(net, patch_index, degree, parameters, point);
 #else

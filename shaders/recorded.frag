@@ -1,6 +1,8 @@
 // OpenGL's lighting (2.1 specification, 2.14.1: one light, no attenuation, a viewer at infinity),
 // for each fragment and on both sides, and GL_MODULATE with a texture.  As in recorded.vert, and
-// SHINY where there is a highlight.
+//
+//   SHINY           there is a highlight
+//   COLOR_MATERIAL  the colour is the ambient and the diffuse material
 
 #ifdef COLORED
 in vec4 vertex_color;
@@ -9,11 +11,8 @@ uniform vec4 vertex_color;
 #endif
 #ifdef LIT
 in vec3 eye_normal;
-uniform vec4 light_position;      // in eye coordinates
-uniform vec3 light_ambient;       // the light's and the model's
-uniform vec3 light_diffuse;
-uniform vec3 material_ambient, material_diffuse;
-uniform bool color_material;
+uniform vec4 light_position;      // in eye coordinates; a direction has the length 1
+uniform vec3 ambient, diffuse;    // light times material, but for a COLOR_MATERIAL
 #ifdef POSITIONAL
 in vec4 eye_position;
 #endif
@@ -40,18 +39,19 @@ vec4 lit_color() {
     vec3 to_light = normalize(light_position.xyz * eye_position.w -
                               eye_position.xyz * light_position.w);
 #else
-    vec3 to_light = normalize(light_position.xyz);
+    vec3 to_light = light_position.xyz;
 #endif
     float facing = max(dot(normal, to_light), 0.0);
-    vec3 ambient = color_material ? vertex_color.rgb : material_ambient;
-    vec3 diffuse = color_material ? vertex_color.rgb : material_diffuse;
-    vec3 sum = ambient * light_ambient + facing * diffuse * light_diffuse;
+    vec4 sum = vec4(ambient + facing * diffuse, 1.0);
+#ifdef COLOR_MATERIAL
+    sum *= vertex_color;
+#endif
 #ifdef SHINY
     vec3 halfway = normalize(to_light + vec3(0.0, 0.0, 1.0));
     float shine = facing > 0.0 ? pow(max(dot(normal, halfway), 0.0), shininess) : 0.0;
-    sum += shine * specular;
+    sum.rgb += shine * specular;
 #endif
-    return vec4(sum, color_material ? vertex_color.a : 1.0);
+    return sum;
 }
 #endif
 

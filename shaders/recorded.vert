@@ -1,11 +1,24 @@
-// What the evaluators recorded, in the place of fixed function: its maps are attributes now.
-// OpenGL 3.3.  Small triangles cost what is interpolated over them, so nothing is that need not be:
+// What the evaluators recorded, in the place of fixed function.  OpenGL 3.3.
+// Its maps are attributes now, or, with INSTANCED, the vertex map is evaluated on the spot:
+// an instance is a patch, whose control points are attributes too (lib/net.glsl).
+//
+//   AUTO_NORMAL  so is the normal
+//
+// Small triangles cost what is interpolated over them, so nothing is that need not be:
 //
 //   COLORED     the colours differ from vertex to vertex; else one for all
 //   PROJECTIVE  the texture coordinates have a fourth one to be divided by
 //   POSITIONAL  the light stands somewhere; else it comes from one direction
 
+#ifdef INSTANCED
+#include "lib/evaluate.glsl"
+#include "lib/normal.glsl"
+in vec4 parameters;
+uniform sampler2D net;   // not read: the control points are attributes
+const ivec2 degree = ivec2(DEGREE_U, DEGREE_V);
+#else
 in vec4 position;
+#endif
 uniform mat4 projection, modelview;
 
 #ifdef COLORED
@@ -13,7 +26,9 @@ in vec4 color;
 out vec4 vertex_color;
 #endif
 #ifdef LIT
+#ifndef AUTO_NORMAL
 in vec3 normal;
+#endif
 uniform mat3 normal_matrix;
 out vec3 eye_normal;
 #ifdef POSITIONAL
@@ -30,6 +45,17 @@ out vec2 vertex_texcoord;
 #endif
 
 void main() {
+#ifdef INSTANCED
+    vec4 position;
+#if defined(LIT) && defined(AUTO_NORMAL)
+    vec3 normal = surface_normal(net, 0, degree, parameters, position);
+#else
+    position = evaluate(net, 0, degree, parameters);
+#endif
+#if COMPONENTS == 3
+    position.w = 1.0;
+#endif
+#endif
     vec4 eye = modelview * position;
     gl_Position = projection * eye;
 #ifdef COLORED

@@ -54,8 +54,8 @@ MUTANTS = {  # file, what it says, what it shall say
     ),
     "u and v swapped in the evaluator of normals": (
         "shaders/lib/normal.glsl",
-        "point = evaluate_derivatives(net, patch_index, degree, uv, along_u, along_v);",
-        "point = evaluate_derivatives(net, patch_index, degree, uv.zwxy, along_u, along_v);",
+        "evaluate_derivatives(net, patch_index, degree, inside, along_u, along_v);",
+        "evaluate_derivatives(net, patch_index, degree, inside.zwxy, along_u, along_v);",
     ),
     "u and v swapped in a file": (
         "app/reparam/files/bv.py",

@@ -2,20 +2,41 @@
 // derivatives, from the net alone (glMap2, OpenGL 2.1 specification, section 5.1).
 // Twin: geometry/evaluate.py
 //
+//      c_i0 ... c_id   --- B_j(v) --->   q_i, the control points of the curve v = const
+//      q_0 ... q_d     --- B_i(u) --->   p
+//
 // uv = (u, 1-u, v, 1-v).  Sums pair the first term with the last,
 //
 //      (b0 c0 + bd cd) + (b1 c1 + bd-1 cd-1) + ...
 //
 // so an edge read backwards, or as a u-edge here and a v-edge there, gives the same bits:
 // neighbours of one degree meet without cracks.
+//
+// Loops that fill arrays of MAX_ORDER, and small ones, are those that Mesa's compiler unrolls;
+// else the arrays lie in memory and everything takes three times as long.
 
 #include "bernstein.glsl"
 #include "net.glsl"
 
-// sum_j basis[j] c[first + j]
-vec4 combine(sampler2D net, int first, int degree, float basis[MAX_ORDER]) {
+// sum_j basis[j] points[j]
+vec4 curve_point(int degree, float basis[MAX_ORDER], vec4 points[MAX_ORDER]) {
     PRECISE vec4 sum = vec4(0.0);
-    for (int j = 0; 2 * j <= degree; ++j) {
+    for (int j = 0; j <= degree / 2; ++j) {
+        int k = degree - j;
+        PRECISE vec4 pair = basis[j] * points[j];
+        if (k != j) {
+            PRECISE vec4 mirrored = basis[k] * points[k];
+            pair = pair + mirrored;
+        }
+        sum = sum + pair;
+    }
+    return sum;
+}
+
+// The same of the control points of a net from `first` on, which are not gathered first.
+vec4 net_point(sampler2D net, int first, int degree, float basis[MAX_ORDER]) {
+    PRECISE vec4 sum = vec4(0.0);
+    for (int j = 0; j <= degree / 2; ++j) {
         int k = degree - j;
         PRECISE vec4 pair = basis[j] * control_point(net, first + j);
         if (k != j) {
@@ -27,12 +48,12 @@ vec4 combine(sampler2D net, int first, int degree, float basis[MAX_ORDER]) {
     return sum;
 }
 
-// The same with two bases at once: each control point is fetched once.
-void combine(sampler2D net, int first, int degree, float basis[MAX_ORDER], float slope[MAX_ORDER],
-             out vec4 point, out vec4 along) {
+// And with two bases at once: each control point is fetched once.
+vec4 net_point(sampler2D net, int first, int degree, float basis[MAX_ORDER],
+               float slope[MAX_ORDER], out vec4 along) {
     PRECISE vec4 sum = vec4(0.0);
     along = vec4(0.0);
-    for (int j = 0; 2 * j <= degree; ++j) {
+    for (int j = 0; j <= degree / 2; ++j) {
         int k = degree - j;
         vec4 control = control_point(net, first + j);
         PRECISE vec4 pair = basis[j] * control;
@@ -45,7 +66,7 @@ void combine(sampler2D net, int first, int degree, float basis[MAX_ORDER], float
         }
         sum = sum + pair;
     }
-    point = sum;
+    return sum;
 }
 
 // The homogeneous point (w x, w y, w z, w).
@@ -54,18 +75,11 @@ vec4 evaluate(sampler2D net, int patch_index, ivec2 degree, vec4 uv) {
     bernstein(degree.x, uv.xy, row);
     bernstein(degree.y, uv.zw, column);
     int first = patch_index * (degree.x + 1) * (degree.y + 1);
-    PRECISE vec4 sum = vec4(0.0);
-    for (int i = 0; 2 * i <= degree.x; ++i) {
-        int k = degree.x - i;
-        PRECISE vec4 pair = row[i] * combine(net, first + i * (degree.y + 1), degree.y, column);
-        if (k != i) {
-            PRECISE vec4 mirrored =
-                row[k] * combine(net, first + k * (degree.y + 1), degree.y, column);
-            pair = pair + mirrored;
-        }
-        sum = sum + pair;
+    vec4 curve[MAX_ORDER];
+    for (int i = 0; i <= degree.x; ++i) {
+        curve[i] = net_point(net, first + i * (degree.y + 1), degree.y, column);
     }
-    return sum;
+    return curve_point(degree.x, row, curve);
 }
 
 // The same point, bit for bit, and the homogeneous partial derivatives d/du and d/dv.
@@ -77,23 +91,12 @@ vec4 evaluate_derivatives(sampler2D net, int patch_index, ivec2 degree, vec4 uv,
     bernstein_derivative(degree.x, uv.xy, row_slope);
     bernstein_derivative(degree.y, uv.zw, column_slope);
     int first = patch_index * (degree.x + 1) * (degree.y + 1);
-    PRECISE vec4 sum = vec4(0.0);
-    along_u = along_v = vec4(0.0);
-    for (int i = 0; 2 * i <= degree.x; ++i) {
-        int k = degree.x - i;
-        vec4 point, along;
-        combine(net, first + i * (degree.y + 1), degree.y, column, column_slope, point, along);
-        PRECISE vec4 pair = row[i] * point;
-        along_u += row_slope[i] * point;
-        along_v += row[i] * along;
-        if (k != i) {
-            combine(net, first + k * (degree.y + 1), degree.y, column, column_slope, point, along);
-            PRECISE vec4 mirrored = row[k] * point;
-            pair = pair + mirrored;
-            along_u += row_slope[k] * point;
-            along_v += row[k] * along;
-        }
-        sum = sum + pair;
+    vec4 curve[MAX_ORDER], across[MAX_ORDER];
+    for (int i = 0; i <= degree.x; ++i) {
+        int row_first = first + i * (degree.y + 1);
+        curve[i] = net_point(net, row_first, degree.y, column, column_slope, across[i]);
     }
-    return sum;
+    along_u = curve_point(degree.x, row_slope, curve);
+    along_v = curve_point(degree.x, row, across);
+    return curve_point(degree.x, row, curve);
 }

@@ -3,8 +3,9 @@
 A frame of the real one calls glMap2f and glEvalMesh2 for each patch (in a display list, which
 evaluates again at each call, it is slower still). Ours, all patches in one draw:
 
-kept       a recording is drawn again, as a display list would be
-evaluated  all its maps are uploaded and evaluated anew in each frame
+kept       a recording is drawn again, as a display list would be: its control points are on the
+           GPU, every vertex is evaluated anew as it is drawn
+evaluated  all control points are packed and uploaded anew in each frame as well
 recorded   the calls are made from Python in each frame as well
 
 `discard` is the work on vertices alone: nothing is rasterised.
@@ -168,7 +169,7 @@ def _measure(
             with studio.ctx.scope(ours.framebuffer, flags):
                 ours.draw(recording)
 
-        wanted = goal if way == "kept" else None
+        wanted = goal if way != "recorded" else None
         found = interleave(run_ours, real.draw, pairs)
         yield found.row(
             f"{name}/{work}/{way}", inverse=True, goal=wanted, size=f"{SIZE}x{SIZE}", degree=DEGREE

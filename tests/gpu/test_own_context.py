@@ -12,7 +12,6 @@ import moderngl
 import numpy as np
 from reparam.evaluators import *
 from reparam.geometry.evaluate import evaluate
-from reparam.gpu import evaluation
 
 ctx = moderngl.create_context(standalone=True, backend="egl")
 gl = Evaluators(ctx)
@@ -23,15 +22,14 @@ gl.glEnable(GL_AUTO_NORMAL)
 gl.glMapGrid2f(5, 0, 1, 9, 0, 1)
 gl.glEvalMesh2(GL_FILL, 0, 5, 0, 9)
 recording = gl.take()
-evaluation.STRIPS_FROM = 1
 for evaluator in ("vertex", "tessellation")[: 1 + (ctx.version_code >= 400)]:
     (mesh,) = gl.read(recording, evaluator=evaluator)
     truth = evaluate(np.dstack([net.astype(np.float32), np.ones((3, 4))]), *mesh.parameters.T)
     lengths = np.linalg.norm(mesh.normals, axis=-1)
     print(np.abs(mesh.vertices - truth).max(), np.abs(lengths - 1.0).max())
-(drawable,) = gl._painter.recordings._drawables(recording)
-strips = np.frombuffer(drawable.streams["vertex"][0].read(), np.float32).reshape(60, 7)
-print(np.abs(strips[:, :4] - truth).max(), np.abs(strips[:, 4:] - mesh.normals).max())
+(drawable,) = gl._painter.recordings.drawables.of(recording, on_the_spot=False)
+kept = np.frombuffer(drawable.streams["vertex"][0].read(), np.float32).reshape(60, 7)
+print(np.abs(kept[:, :4] - truth).max(), np.abs(kept[:, 4:] - mesh.normals).max())
 assert ctx.error == "GL_NO_ERROR"
 """
 

@@ -15,7 +15,7 @@ from truth import errors, random_nets
 from reparam import assets
 from reparam.assets import read_shaders
 from reparam.errors import GraphicsError
-from reparam.gpu.evaluation import strip_defines
+from reparam.gpu.nets import instance_defines
 from reparam.gpu.painter import Painter
 from reparam.gpu.programs import Programs, degree_defines, locate, stage_source
 from reparam.gpu.readback import read_points
@@ -33,7 +33,7 @@ MEASURED = [{"LOCATED": 1, name: 1, **lit} for name in ("LEVEL", "ERROR") for li
 RECORDED = [
     [],
     ["COLORED"],
-    ["LIT", "POSITIONAL"],
+    ["LIT", "POSITIONAL", "COLOR_MATERIAL"],
     ["LIT", "SHINY", "TEXTURED"],
     ["LIT", "SHINY", "POSITIONAL", "COLORED", "TEXTURED", "PROJECTIVE"],
     ["TEXTURED"],
@@ -41,6 +41,7 @@ RECORDED = [
 ]
 TESSELLATION = ("patch.tess.vert", "patch.tesc", "patch.tese")
 EVALUATE = degree_defines(**{"": (3, 1)}) | {"NORMALS": 1}
+ON_THE_SPOT = degree_defines(**{"": (3, 2)}) | instance_defines((3, 2), 3)
 LOW = degree_defines(POSITION_=(2, 3), TEXTURE_=(1, 1))
 HIGH = degree_defines(POSITION_=(2, 9), TEXTURE_=(1, 1))
 ADAPTIVE = {"ADAPTIVE": 1}
@@ -65,10 +66,9 @@ VARIANTS: list[tuple[tuple[str, ...], dict[str, Any]]] = [
     (("adaptive.vert", "located.frag"), LOCATED | LOW | {"TEXTURED": 1}),
     (("levels.vert",), {}),
     (("levels.vert",), {"TEXTURED": 1}),
-    *(
-        (("strip.vert",), degree_defines(**{"": (3, 1)}) | strip_defines(5, n))
-        for n in (True, False)
-    ),
+    *((("recorded.vert", "recorded.frag"), look | ON_THE_SPOT) for look in LOOKS[:4]),
+    (("recorded.vert", "recorded.frag"), {"LIT": 1, "AUTO_NORMAL": 1} | ON_THE_SPOT),
+    (("evaluate.vert",), EVALUATE | instance_defines((3, 1), 4)),
     (("evaluate.vert",), degree_defines(**{"": (0, 0)})),
     (("evaluate.vert",), EVALUATE),
     (("evaluate.vert",), degree_defines(**{"": (9, 1)})),
@@ -152,7 +152,7 @@ def test_no_shader_is_left_out() -> None:
         ("lib/normal.glsl", 7, "vec3 safe_normalize(vec3 v) { undeclared = v;"),
         ("lib/bernstein.glsl", 17, "    basis[0] = vec2(1.0);"),
         ("lib/net.glsl", 6, "    return )"),
-        ("evaluate.vert", 28, "    int patch_index = first_patch + missing(gl_InstanceID);"),
+        ("evaluate.vert", 31, "    int patch_index = first_patch + missing(gl_InstanceID);"),
     ],
 )
 def test_an_error_names_file_and_line(
@@ -183,7 +183,7 @@ def test_drivers_messages(message: str) -> None:
     source = stage_source("evaluate.vert", {}, 330, read_shaders())
     said = message % place(source.text, "// sum_j basis[j]")
     log = f"GLSL Compiler failed\n\nvertex_shader\n=============\n{said}\n"
-    assert locate(log, {"vertex_shader": source}).startswith("lib/evaluate.glsl:15: ")
+    assert locate(log, {"vertex_shader": source}).startswith("lib/evaluate.glsl:21: ")
 
 
 def test_a_missing_include_names_file_and_line(tree: Path) -> None:

@@ -36,6 +36,8 @@ from reparam.evaluators import (
 )
 from reparam.geometry.normal import surface_normal
 from reparam.geometry.planar_maps import R
+from reparam.gpu import evaluation
+from reparam.gpu.drawables import Drawable
 from reparam.snapshot import Studio
 
 RANDOM = np.random.default_rng(11)
@@ -375,23 +377,29 @@ def test_the_pages_examples_run(studio: Studio, page: str) -> None:
 
 
 @pytest.mark.usefixtures("screen")
-def test_a_recording_is_evaluated_once_and_its_memory_given_back(
-    gl: Evaluators, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("vectors", [evaluation.MOST_VECTORS, 0])
+def test_a_recording_is_brought_to_the_gpu_once_and_its_memory_given_back(
+    gl: Evaluators, monkeypatch: pytest.MonkeyPatch, vectors: int
 ) -> None:
-    evaluation = gl._painter.evaluation
-    runs, released = [], []
-    run = evaluation.run
-    monkeypatch.setattr(evaluation, "run", lambda *a, **k: runs.append(run(*a, **k)) or runs[-1])
+    """On the spot or, where attributes are too few, evaluated beforehand."""
+    monkeypatch.setattr(evaluation, "MOST_VECTORS", vectors)
+    made, released = [], []
+    upload = Drawable.__init__
+    monkeypatch.setattr(
+        Drawable, "__init__", lambda self, *parts: made.append(parts) or upload(self, *parts)
+    )
     first, second = square_mesh(gl), square_mesh(gl)
     for _ in range(3):
         gl.draw(first, projection=to_clip(0, 1))
         gl.draw(second, projection=to_clip(0, 1))
-    assert len(runs) == 2
-    drawables = gl._painter.recordings._kept[first]
-    monkeypatch.setattr(type(drawables[0]), "release", lambda self: released.append(self))
-    del first, drawables
+    assert len(made) == 2
+    release = Drawable.release
+    monkeypatch.setattr(
+        Drawable, "release", lambda self: released.append(self.owned) or release(self)
+    )
+    del first
     gc.collect()
     gl.draw(second, projection=to_clip(0, 1))
-    assert len(released) == 1
-    for buffer in runs:
-        buffer.release()
+    (buffers,) = released
+    assert buffers
+    assert all(isinstance(buffer.mglo, moderngl.InvalidObject) for buffer in buffers)

@@ -47,20 +47,6 @@ def evaluate_derivatives(net: Array, u: ArrayLike, v: ArrayLike) -> tuple[Array,
     return along_u, along_v
 
 
-def iso_curve(net: Array, u: float) -> tuple[Array, Array]:
-    """The curve u = const of a patch as a Bezier curve in v: its control points (n, 4), and
-    those of d/du along it. Twin: shaders/lib/strip.glsl."""
-    degree = net.shape[-3] - 1
-    bases = bernstein(degree, u), bernstein_derivative(degree, u)
-    curve, across = (np.einsum("i,ijc->jc", basis, net) for basis in bases)
-    return curve, across
-
-
-def curve_point(basis: Array, curve: Array) -> Array:
-    """sum_j basis_j q_j: points (..., 4) of a curve with control points (n, 4)."""
-    return np.asarray(basis @ curve)
-
-
 def _combine(net: Array, row: Array, column: Array) -> Array:
     shape = row.shape[:-1]
     row, column = row.reshape(-1, row.shape[-1]), column.reshape(-1, column.shape[-1])

@@ -32,18 +32,23 @@ def projected_derivative(points: Array, derivatives: Array) -> Array:
     return np.where(weights != 0.0, derivatives[..., :3] - derivatives[..., 3:] * affine, 0.0)
 
 
+def largest_component(vectors: Array) -> Array:
+    """The largest absolute component of vectors (..., 3): shape (..., 1)."""
+    return np.asarray(np.abs(vectors).max(-1, keepdims=True))
+
+
 def cross_of_tangents(net: Array, u: ArrayLike, v: ArrayLike) -> Array:
-    """Cross product of the unit tangents along u and v; its length is the sine between them.
+    """Cross product of the tangents along u and v, each as long as its largest component is 1:
+    so its length is the sine between them, but for a factor of at most 3.
 
     Zero too where one tangent is tiny beside the other: at a pole it is rounding alone.
     """
     points = evaluate(net, u, v)
     along_u, along_v = (projected_derivative(points, d) for d in evaluate_derivatives(net, u, v))
-    sizes = np.stack([np.abs(along_u).max(-1), np.abs(along_v).max(-1)])
-    tiny = sizes.min(0) <= SINGULAR_SINE * sizes.max(0)
-    return np.where(
-        tiny[..., None], 0.0, np.cross(safe_normalize(along_u), safe_normalize(along_v))
-    )
+    size_u, size_v = largest_component(along_u), largest_component(along_v)
+    tiny = np.minimum(size_u, size_v) <= SINGULAR_SINE * np.maximum(size_u, size_v)
+    size_u, size_v = np.where(tiny, 1.0, size_u), np.where(tiny, 1.0, size_v)
+    return np.where(tiny, 0.0, np.cross(along_u / size_u, along_v / size_v))
 
 
 def surface_normal(net: Array, u: ArrayLike, v: ArrayLike) -> Array:
@@ -54,18 +59,16 @@ def surface_normal(net: Array, u: ArrayLike, v: ArrayLike) -> Array:
     (all points collinear), any unit vector, never NaN.
     """
     u, v = np.asarray(u, dtype=np.float64), np.asarray(v, dtype=np.float64)
-    return limit_normal(net, u, v, cross_of_tangents(net, u, v))
-
-
-def limit_normal(net: Array, u: Array, v: Array, normal: Array) -> Array:
-    """The unit normals from the cross products of the tangents; limits where those vanish."""
+    normal = cross_of_tangents(net, u, v)
     inward = SINGULAR_STEP
-    while inward < 1.0:
-        singular = np.linalg.norm(normal, axis=-1, keepdims=True) <= SINGULAR_SINE
-        if not singular.any():
-            break
+    while (singular := is_singular(normal)).any() and inward < 1.0:
         inside = (t + inward * (0.5 - t) for t in (u, v))
-        normal = np.where(singular, cross_of_tangents(net, *inside), normal)
+        normal = np.where(singular[..., None], cross_of_tangents(net, *inside), normal)
         inward *= SINGULAR_FACTOR
     nowhere = ~normal.any(-1, keepdims=True)
     return safe_normalize(np.where(nowhere, np.array([0.0, 0.0, 1.0]), normal))
+
+
+def is_singular(normals: Array) -> NDArray[np.bool_]:
+    """Whether a cross product of tangents (..., 3) says nothing about the normal."""
+    return np.asarray(np.linalg.norm(normals, axis=-1) <= SINGULAR_SINE)

@@ -1,4 +1,4 @@
-"""The vertex evaluator: nets at lists of parameters, into buffers (evaluate.vert, strip.vert)."""
+"""The vertex evaluator: nets at lists of parameters, into buffers (evaluate.vert)."""
 
 from __future__ import annotations
 
@@ -12,15 +12,19 @@ from numpy.typing import NDArray
 
 from ..geometry.formula import Formula
 from .kept import Kept
-from .nets import NET_UNIT, net_texture, rewrite
+from .nets import (
+    NET_UNIT,
+    instance_defines,
+    instance_vectors,
+    net_texture,
+    pack_instances,
+    rewrite,
+)
 from .programs import SPECIALISED_DEGREE, Program, Programs, degree_defines
 
 Array = NDArray[np.float64]
 
-SHORTEST_STRIP = 3
-STRIPS_FROM = 1 << 14  # vertices: below, compiling another program costs more
-LONGEST_STRIP = {False: 16, True: 9}  # 64 floats of a vertex can be captured everywhere
-
+MOST_VECTORS = 12  # attributes for a net: 16 are everywhere, less parameters, normal, ...
 FLOATS = {False: 4, True: 7}  # a captured vertex: point, and with normals its normal
 
 
@@ -42,16 +46,22 @@ class Parameters:
     count: int
 
 
+@dataclass(frozen=True)
+class Carried:
+    """Nets as vertex attributes, a patch an instance (shaders/lib/net.glsl); to be released."""
+
+    buffer: moderngl.Buffer
+    layout: str
+    defines: dict[str, int]
+
+
 class Evaluation:
     """Evaluates nets by transform feedback. Owns the nets' textures and the parameter lists."""
 
     def __init__(self, ctx: moderngl.Context, programs: Programs) -> None:
         self._ctx = ctx
         self._programs = programs
-        slots = int(ctx.info["GL_MAX_VERTEX_OUTPUT_COMPONENTS"]) // 4 - 1
-        self._longest = {n: min(most, slots // (1 + n)) for n, most in LONGEST_STRIP.items()}
         self._textures: Kept[moderngl.Texture] = Kept(lambda texture: texture.release())
-        self._columns: Kept[Array] = Kept(lambda _: None, frames=64)
         self._parameters: Kept[Parameters] = Kept(lambda p: p.buffer.release(), frames=64)
 
     def texture(self, net: Array) -> moderngl.Texture:
@@ -81,80 +91,79 @@ class Evaluation:
         if patch_count(net) == 1 and len(patches) > 1:
             captured = self.run(net, parameters, range(1), normals=normals)
             return self._repeated(captured, len(patches))
-        program = self._programs.get(
-            "evaluate.vert",
-            defines=degree_defines(**{"": orders(net)}) | ({"NORMALS": 1} if normals else {}),
-            varyings=("point", "normal") if normals else ("point",),
-        )
+        program = self._program(net, normals, {})
         self.texture(net).use(NET_UNIT)
         program.set(
             net=NET_UNIT,
             degree=orders(net),
             first_patch=0 if patch_count(net) == 1 else patches[0],
         )
-        where = self._upload(parameters)
-        vertices = self._ctx.vertex_array(
-            program.ready(),
-            [(where.buffer, "4f", "parameters")] if "parameters" in program.gl else [],
+        return self._feed_back(program, parameters, [], len(patches), into)
+
+    def run_map(
+        self, net: Array, components: int, parameters: Array, patches: int, *, normals: bool = False
+    ) -> moderngl.Buffer:
+        """The same of all patches of a map with so many components that count. Nothing is kept:
+        its control points travel as attributes if they fit, twice as fast as in a texture."""
+        if patch_count(net) == 1 and patches > 1:
+            captured = self.run_map(net, components, parameters, 1, normals=normals)
+            return self._repeated(captured, patches)
+        carried = self.carry(net, components)
+        if carried is None:
+            return self.run(net, parameters, range(patches), normals=normals)
+        program = self._program(net, normals, carried.defines)
+        content = [(carried.buffer, carried.layout, "control")]
+        captured = self._feed_back(program, parameters, content, patches)
+        carried.buffer.release()
+        return captured
+
+    def carry(self, net: Array, components: int) -> Carried | None:
+        """The control points of all patches as attributes; None where there are too many."""
+        vectors = instance_vectors(orders(net), components)
+        if vectors > MOST_VECTORS or max(orders(net)) > SPECIALISED_DEGREE:
+            return None
+        buffer = self._ctx.buffer(pack_instances(net, components).tobytes())
+        return Carried(buffer, f"{4 * vectors}f/i", instance_defines(orders(net), components))
+
+    def parameters(self, parameters: Array) -> moderngl.Buffer:
+        """A list of (u, 1-u, v, 1-v) on the GPU, kept while it is used."""
+        return self._upload(parameters).buffer
+
+    def _program(self, net: Array, normals: bool, defines: dict[str, int]) -> Program:
+        return self._programs.get(
+            "evaluate.vert",
+            defines=degree_defines(**{"": orders(net)})
+            | ({"NORMALS": 1} if normals else {})
+            | defines,
+            varyings=("point", "normal") if normals else ("point",),
         )
+
+    def _feed_back(
+        self,
+        program: Program,
+        parameters: Array,
+        content: list[Any],
+        patches: int,
+        into: tuple[moderngl.Buffer, int] | None = None,
+    ) -> moderngl.Buffer:
+        """What the program makes of the parameters, for each patch an instance: in a buffer of
+        its own, or `into` one that is there, from so many patches on."""
+        where = self._upload(parameters)
+        if "parameters" in program.gl:
+            content = [(where.buffer, "4f", "parameters"), *content]
+        vertices = self._ctx.vertex_array(program.ready(), content)
+        normals = "NORMALS" in program.defines
         size = where.count * FLOATS[normals] * 4
-        captured, before = into or (self._ctx.buffer(reserve=len(patches) * size), 0)
+        captured, before = into or (self._ctx.buffer(reserve=patches * size), 0)
         vertices.transform(
             captured,
             moderngl.POINTS,
             where.count,
-            instances=len(patches),
+            instances=patches,
             buffer_offset=before * size,
         )
         vertices.release()
         return captured
-
-    def run_grid(
-        self,
-        net: Array,
-        parameters: Array,
-        shape: tuple[int, int],
-        patches: range,
-        *,
-        normals: bool = False,
-    ) -> moderngl.Buffer:
-        """The same at the points of a grid of that shape, u slowest. Much work is done strip by
-        strip (strip.vert), if a row can be cut into strips: see `strip_row`."""
-        if patch_count(net) == 1 and len(patches) > 1:
-            captured = self.run_grid(net, parameters, shape, range(1), normals=normals)
-            return self._repeated(captured, len(patches))
-        length = longest_divisor(shape[1], self._longest[normals])
-        little = len(parameters) * len(patches) < STRIPS_FROM or length < SHORTEST_STRIP
-        if little or max(orders(net)) > SPECIALISED_DEGREE:
-            return self.run(net, parameters, patches, normals=normals)
-        program = self._programs.get(
-            "strip.vert",
-            defines=degree_defines(**{"": orders(net)}) | strip_defines(length, normals),
-            varyings=strip_varyings(length, normals),
-        )
-        self.texture(net).use(NET_UNIT)
-        columns = self._columns.get(parameters, shape, lambda: strip_columns(parameters, shape))
-        self.texture(columns).use(NET_UNIT - 1)
-        first = 0 if patch_count(net) == 1 else patches[0]
-        program.set(net=NET_UNIT, columns=NET_UNIT - 1, first_patch=first)
-        starts = self._parameters.get(
-            parameters,
-            (shape, length, len(patches)),
-            lambda: self._uploaded(strip_starts(parameters, shape, length, len(patches))),
-        )
-        size = len(patches) * len(parameters) * FLOATS[normals] * 4
-        captured = self._ctx.buffer(reserve=size)
-        vertices = self._ctx.vertex_array(program.ready(), [(starts.buffer, "4f", "start")])
-        vertices.transform(captured, moderngl.POINTS, starts.count)
-        vertices.release()
-        return captured
-
-    def strip_row(self, points: int, patches: int, rows: int, normals: bool) -> int:
-        """To how many points a grid's rows are best filled up, to be cut into long strips."""
-        if points * patches * rows < STRIPS_FROM:
-            return points
-        strips = -(-points // self._longest[normals])
-        return -(-points // strips) * strips
 
     def _repeated(self, once: moderngl.Buffer, times: int) -> moderngl.Buffer:
         """The same content again and again: a map that all patches share is evaluated once."""
@@ -217,42 +226,3 @@ class Evaluation:
         """End of a frame."""
         self._textures.sweep()
         self._parameters.sweep()
-        self._columns.sweep()
-
-
-def strip_defines(length: int, normals: bool) -> dict[str, Any]:
-    """What strip.vert is compiled with."""
-    defines: dict[str, Any] = {
-        "STRIP": length,
-        "EACH(F)": "".join(f"F({k});" for k in range(length)),
-    }
-    return defines | ({"NORMALS": 1} if normals else {})
-
-
-def strip_varyings(length: int, normals: bool) -> tuple[str, ...]:
-    """What is captured of a strip, vertex by vertex."""
-    names = ("point", "normal") if normals else ("point",)
-    return tuple(f"{name}[{k}]" for k in range(length) for name in names)
-
-
-def longest_divisor(number: int, most: int) -> int:
-    """The largest divisor that is at most `most`."""
-    return next(length for length in range(most, 0, -1) if number % length == 0)
-
-
-def strip_columns(parameters: Array, shape: tuple[int, int]) -> Array:
-    """v and 1-v of the points of a row: (k, 4)."""
-    columns = np.zeros((shape[1], 4))
-    columns[:, :2] = parameters[: shape[1], 2:]
-    return columns
-
-
-def strip_starts(parameters: Array, shape: tuple[int, int], length: int, patches: int) -> Array:
-    """u, 1-u, number of the first point in v, patch: of each strip, (k, 4)."""
-    u = parameters[:: shape[1], :2]
-    first = np.arange(0, shape[1], length)
-    starts = np.empty((patches, shape[0], len(first), 4))
-    starts[..., :2] = u[:, None]
-    starts[..., 2] = first
-    starts[..., 3] = np.arange(patches)[:, None, None]
-    return starts.reshape(-1, 4)

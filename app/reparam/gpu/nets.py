@@ -1,4 +1,4 @@
-"""Control nets as textures. Twin: shaders/lib/net.glsl reads them."""
+"""Control nets as textures or attributes. Twin: shaders/lib/net.glsl reads them."""
 
 from __future__ import annotations
 
@@ -23,6 +23,26 @@ def pack(net: NDArray[np.float64]) -> NDArray[np.float32]:
     texels = np.zeros((rows * width, 4), np.float32)
     texels[: len(points)] = points
     return texels.reshape(rows, width, 4)
+
+
+def instance_vectors(degrees: tuple[int, int], components: int) -> int:
+    """How many attributes of four floats hold the net of one patch."""
+    return -(-(degrees[0] + 1) * (degrees[1] + 1) * components // 4)
+
+
+def instance_defines(degrees: tuple[int, int], components: int) -> dict[str, int]:
+    """What net.glsl is compiled with to read them."""
+    vectors = instance_vectors(degrees, components)
+    return {"INSTANCED": 1, "COMPONENTS": components, "CONTROLS": vectors}
+
+
+def pack_instances(net: NDArray[np.float64], components: int) -> NDArray[np.float32]:
+    """The attributes of nets (..., m, n, 4), of which `components` count: (patches, 4 vectors)."""
+    points = net.reshape(-1, *net.shape[-3:])[..., :components]
+    count = points[0].size
+    packed = np.zeros((len(points), -(-count // 4) * 4), np.float32)
+    packed[:, :count] = points.reshape(len(points), -1)
+    return packed
 
 
 def net_texture(ctx: moderngl.Context, net: NDArray[np.float64]) -> moderngl.Texture:

@@ -2,34 +2,30 @@
 
 from __future__ import annotations
 
-import weakref
-from collections.abc import Callable, Hashable, Iterable, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Hashable, Sequence
+from typing import TYPE_CHECKING, Any
 
 import moderngl
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from ..evaluators.arguments import Quad
 from ..evaluators.constants import GL_POINTS, GL_TRIANGLES
 from ..evaluators.errors import InvalidOperation
-from ..evaluators.grids import Indices, chained, grid_pairs, mesh_indices, primitive_indices
+from ..evaluators.grids import Indices, chained, primitive_indices
 from ..evaluators.light import Light
 from ..evaluators.maps import Array, Attribute
-from ..evaluators.recording import HAVE_CURRENT, Batch, Collection, Recording
+from ..evaluators.recording import Batch, Collection, Recording
 from ..geometry.camera import Camera
 from ..scenes.layers import Recorded
+from .drawables import Drawable, Drawables, Spot
 from .evaluated import SIZES, read_collection
 from .programs import Program
 
 if TYPE_CHECKING:
     from .painter import Painter
 
-Single = NDArray[np.float32]
-
 TEXTURE_UNIT = 0
-MODES = {1: moderngl.POINTS, 2: moderngl.LINES, 3: moderngl.TRIANGLES}
+SPOT_ATTRIBUTES = ("parameters", "control")  # of recorded.vert, where it evaluates
 ATTRIBUTES: dict[str, Attribute] = {  # names in a user's program; `in_` may stand before them
     "position": "vertex", "vert": "vertex",
     "normal": "normal", "norm": "normal",
@@ -39,44 +35,13 @@ ATTRIBUTES: dict[str, Attribute] = {  # names in a user's program; `in_` may sta
 }  # fmt: skip
 
 
-@dataclass(frozen=True, eq=False)
-class Shared:
-    """Indices that many drawables use."""
-
-    buffer: moderngl.Buffer
-
-
-@dataclass(frozen=True)
-class Drawable:
-    """A batch or a collection on the GPU: buffers and formats of what differs from vertex to
-    vertex, the values of what does not, and the primitives."""
-
-    streams: dict[Attribute, tuple[moderngl.Buffer, str]]
-    constants: dict[Attribute, Quad]
-    indices: Shared
-    mode: int
-    count: int
-    projective: bool  # texture coordinates have a fourth one
-    owned: tuple[moderngl.Buffer, ...]
-
-    def release(self) -> None:
-        """Give the memory back; of the indices when nobody uses them any more."""
-        for buffer in self.owned:
-            buffer.release()
-
-
 class Recordings:
     """Draws recordings, in the context of a painter."""
 
     def __init__(self, painter: Painter) -> None:
         self._painter = painter
         self._ctx = painter.ctx
-        self._kept: weakref.WeakKeyDictionary[Recording, list[Drawable]]
-        self._kept = weakref.WeakKeyDictionary()
-        self._indices: weakref.WeakValueDictionary[Hashable, Shared]
-        self._indices = weakref.WeakValueDictionary()
-        self._dead: list[list[Drawable]] = []  # of recordings that are no more
-        self._lost: list[moderngl.Buffer] = []  # indices that nobody uses any more
+        self.drawables = Drawables(painter)
 
     def draw(self, recording: Recording, program: moderngl.Program) -> None:
         """Draw into the current framebuffer with a program whose vertex attributes are called
@@ -85,7 +50,7 @@ class Recordings:
         What was evaluated is kept as long as the recording is. Raises InvalidOperation for a
         program with other attributes.
         """
-        for drawable in self._drawables(recording):
+        for drawable in self.drawables.of(recording, on_the_spot=False):
             self._render(drawable, program)
 
     def draw_built_in(
@@ -104,7 +69,7 @@ class Recordings:
         """
         if texture is not None:
             texture.use(TEXTURE_UNIT)
-        for drawable in self._drawables(recording):
+        for drawable in self.drawables.of(recording, on_the_spot=True):
             if modes is not None and drawable.mode not in modes:
                 continue
             defines = look_of(drawable, light, texture is not None)
@@ -123,7 +88,10 @@ class Recordings:
     def _render(self, drawable: Drawable, program: moderngl.Program) -> None:
         content: list[tuple[moderngl.Buffer, str, str]] = []
         made = []
-        for name, attribute in attributes_of(program).items():
+        own = () if drawable.spot is None else SPOT_ATTRIBUTES
+        if drawable.spot is not None:
+            content = self._on_the_spot(drawable.spot, program)
+        for name, attribute in attributes_of(program, own).items():
             if attribute in drawable.streams:
                 content.append((*drawable.streams[attribute], name))
             else:
@@ -131,10 +99,20 @@ class Recordings:
                 made.append(self._ctx.buffer(np.array(value, np.float32).tobytes()))
                 content.append((made[-1], f"{len(value)}f /r", name))
         vertices = self._ctx.vertex_array(program, content, drawable.indices.buffer)
-        vertices.render(drawable.mode, drawable.count)
+        vertices.render(drawable.mode, drawable.count, instances=drawable.instances)
         vertices.release()
         for buffer in made:
             buffer.release()
+
+    def _on_the_spot(
+        self, spot: Spot, program: moderngl.Program
+    ) -> list[tuple[moderngl.Buffer, str, str]]:
+        """What the program's evaluator needs."""
+        parameters = self._painter.evaluation.parameters(spot.parameters)
+        content = [(spot.carried.buffer, spot.carried.layout, "control")]
+        if "parameters" in program:  # a constant map needs none
+            content.append((parameters, "4f", "parameters"))
+        return content
 
     def draw_layer(self, layer: Recorded, camera: Camera, unit: float) -> None:
         """A layer of a figure: triangles by the built-in program, lines and points as strokes."""
@@ -201,113 +179,18 @@ class Recordings:
         finally:
             self._ctx.fbo.depth_mask = True
 
-    def _drawables(self, recording: Recording) -> list[Drawable]:
-        """What was evaluated for a recording, kept as long as it is."""
-        if recording not in self._kept:
-            with self._ctx.scope(self._painter.nowhere, moderngl.NOTHING):
-                made = [self._upload(item) for item in recording.batches]
-            self._kept[recording] = made
-            weakref.finalize(recording, self._dead.append, made).atexit = False
-            self._painter.evaluation.sweep()
-        for dead in self._dead:
-            _release(dead)
-        self._dead.clear()
-        for buffer in self._lost:
-            buffer.release()
-        self._lost.clear()
-        return self._kept[recording]
-
-    def _upload(self, item: Batch | Collection) -> Drawable:
-        return self._evaluate(item) if isinstance(item, Batch) else self._compose(item)
-
-    def _evaluate(self, batch: Batch) -> Drawable:
-        """All maps of all meshes, each into a buffer of its own that never leaves the GPU."""
-        evaluation, grid, patches = self._painter.evaluation, batch.first.grid, len(batch.meshes)
-        auto = batch.first.maps.auto_normal
-        row = evaluation.strip_row(grid.shape[1], patches, grid.shape[0], auto)
-        owned: list[moderngl.Buffer] = []
-        streams: dict[Attribute, tuple[moderngl.Buffer, str]] = {}
-        for attribute, feed in batch.feeds.items():
-            normals = auto and attribute == "vertex"
-            where = grid_pairs(grid, feed.domain, row)
-            shape = (grid.shape[0], row)
-            buffer = evaluation.run_grid(feed.net, where, shape, range(patches), normals=normals)
-            owned.append(buffer)
-            streams[attribute] = (buffer, layout(attribute, feed.components, normals))
-            if normals:
-                streams["normal"] = (buffer, "16x 3f")
-        current = batch.first.current
-        return Drawable(
-            streams,
-            {a: current.value(a) for a in HAVE_CURRENT if a not in streams},
-            self._mesh_indices(batch, row),
-            MODES[batch.indices.shape[1]],
-            patches * batch.indices.size,
-            "texcoord" in batch.feeds and batch.feeds["texcoord"].components == 4,
-            tuple(owned),
-        )
-
-    def _mesh_indices(self, batch: Batch, row: int) -> Shared:
-        grid, copies = batch.first.grid, 1 << (len(batch.meshes) - 1).bit_length()
-        key = (grid.shape, batch.first.mode, grid.turned, row, copies)
-        found = self._indices.get(key)
-        if found is None:
-            first = np.arange(copies, dtype=np.int32)[:, None, None] * (grid.shape[0] * row)
-            found = self._shared(
-                first + mesh_indices(grid.shape, batch.first.mode, grid.turned, row)
-            )
-            self._indices[key] = found
-        return found
-
-    def _shared(self, indices: NDArray[np.int32]) -> Shared:
-        buffer = self._ctx.buffer(indices.astype(np.int32).tobytes())
-        shared = Shared(buffer)
-        weakref.finalize(shared, self._lost.append, buffer).atexit = False
-        return shared
-
-    def _compose(self, collection: Collection) -> Drawable:
-        """Evaluated and plain vertices in one buffer."""
-        found = read_collection(self._painter, collection, "vertex")
-        columns: dict[Attribute, Single] = {
-            "vertex": found.vertices,
-            "normal": found.normals,
-            "color": found.colors,
-            "texcoord": found.texcoords,
-            "index": found.indices[:, None],
-        }
-        buffer = self._ctx.buffer(np.concatenate(list(columns.values()), -1).tobytes())
-        total, before = sum(SIZES.values()), 0
-        streams: dict[Attribute, tuple[moderngl.Buffer, str]] = {}
-        for attribute in columns:
-            size = SIZES[attribute]
-            after = total - before - size
-            parts = (f"{4 * before}x" * bool(before), f"{size}f", f"{4 * after}x" * bool(after))
-            streams[attribute] = (buffer, " ".join(part for part in parts if part))
-            before += size
-        mode, count = MODES[found.primitives.shape[1]], found.primitives.size
-        projective = bool(np.any(found.texcoords[:, 3] != 1.0))
-        indices = self._shared(found.primitives)
-        return Drawable(streams, {}, indices, mode, count, projective, (buffer,))
-
 
 def _as_segments(indices: Indices) -> Indices:
     """Points as segments without length."""
     return indices.repeat(2, 1) if indices.shape[1] == 1 else indices
 
 
-def layout(attribute: Attribute, components: int, normals: bool) -> str:
-    """The format of a captured vertex: the map's components, for what it lacks OpenGL fills in
-    (0, 0, 0, 1) by itself."""
-    size = min(components, SIZES[attribute])
-    skipped = 16 - 4 * size + (12 if normals else 0)
-    return f"{size}f {skipped}x" if skipped else f"{size}f"
-
-
-def attributes_of(program: moderngl.Program) -> dict[str, Attribute]:
-    """What feeds each vertex attribute of a program. Raises InvalidOperation for other names."""
+def attributes_of(program: moderngl.Program, own: Sequence[str] = ()) -> dict[str, Attribute]:
+    """What feeds each vertex attribute of a program, but for the evaluator's own. Raises
+    InvalidOperation for other names."""
     found = {}
     for name in program:
-        if isinstance(program[name], moderngl.Attribute):
+        if isinstance(program[name], moderngl.Attribute) and name not in own:
             plain = name.removeprefix("in_")
             if plain not in ATTRIBUTES:
                 raise InvalidOperation(
@@ -318,28 +201,30 @@ def attributes_of(program: moderngl.Program) -> dict[str, Attribute]:
     return found
 
 
-def look_of(drawable: Drawable, light: Light | None, textured: bool) -> dict[str, int]:
+def look_of(drawable: Drawable, light: Light | None, textured: bool) -> dict[str, Any]:
     """What recorded.vert and recorded.frag are to be able to do."""
     wanted = {
         "COLORED": "color" in drawable.streams,
         "LIT": light is not None,
+        "COLOR_MATERIAL": light is not None and light.color_material,
         "POSITIONAL": light is not None and light.position[3] != 0.0,
         "SHINY": light is not None and any(np.multiply(light.specular, light.material_specular)),
         "TEXTURED": textured,
         "PROJECTIVE": textured and drawable.projective,
     }
-    return {name: 1 for name, on in wanted.items() if on}
+    found = {name: 1 for name, on in wanted.items() if on}
+    return found | (drawable.spot.defines if drawable.spot is not None else {})
 
 
 def _set_light(program: Program, light: Light) -> None:
-    program.set(
-        light_position=light.position,
-        light_ambient=tuple(np.add(light.ambient, light.model_ambient)),
-        light_diffuse=light.diffuse,
-        material_ambient=light.material_ambient,
-        material_diffuse=light.material_diffuse,
-        color_material=light.color_material,
-    )
+    """Products that are the same for all fragments are made here."""
+    position = np.array(light.position)
+    if position[3] == 0.0:
+        position[:3] /= np.linalg.norm(position[:3]) or 1.0
+    ambient, diffuse = np.add(light.ambient, light.model_ambient), np.array(light.diffuse)
+    if not light.color_material:
+        ambient, diffuse = ambient * light.material_ambient, diffuse * light.material_diffuse
+    program.set(light_position=tuple(position), ambient=tuple(ambient), diffuse=tuple(diffuse))
     if "SHINY" in program.defines:
         specular = tuple(np.multiply(light.specular, light.material_specular))
         program.set(specular=specular, shininess=light.shininess)
@@ -347,8 +232,3 @@ def _set_light(program: Program, light: Light) -> None:
 
 def _column_major(matrix: Array) -> bytes:
     return matrix.T.astype(np.float32).tobytes()
-
-
-def _release(drawables: Iterable[Drawable]) -> None:
-    for drawable in drawables:
-        drawable.release()
