@@ -25,7 +25,10 @@ from reparam.snapshot import Studio
 
 EVALUATORS = ["vertex", "tessellation"]
 LEVELS = [7, 8, 13]
-LARGE = ("cube", "dodecahedron", "prism9", "three_handles", "torus", "t_mesh")
+CLOSED = (
+    "cube", "tetrahedron", "octahedron", "icosahedron", "dodecahedron", "prism6", "prism7",
+    "prism8", "prism9", "three_handles", "torus", "hexagon_torus", "t_mesh",
+)  # fmt: skip
 SIZE = 192
 COUNTING = """
 uniform vec4 color;
@@ -111,7 +114,7 @@ def test_front_and_back_faces_cancel_at_every_pixel(
 @pytest.mark.parametrize("evaluator", EVALUATORS)
 @pytest.mark.parametrize(
     ("name", "views"),
-    [("cube", 6), ("prism7", 6), *(pytest.param(n, 200, marks=pytest.mark.slow) for n in LARGE)],
+    [("cube", 6), ("prism7", 6), *(pytest.param(n, 200, marks=pytest.mark.slow) for n in CLOSED)],
 )
 def test_surface_splines_are_closed(
     counter: tuple[Painter, moderngl.Framebuffer, moderngl.Texture],

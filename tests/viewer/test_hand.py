@@ -188,3 +188,30 @@ def test_a_click_is_told_apart_from_a_drag() -> None:
     assert table.state.subject.value("arcs") == "KKKM"
     table.state.undo()
     assert table.state.subject.value("arcs") == "KMKM"
+
+
+def test_a_handle_that_stands_for_a_number() -> None:
+    """The ratio of an edge: told and typed as such, not as where its handle is."""
+    table = Table(scene="fig9")
+    x, y = table.pixel(0)
+    table.hand.point_at(x, y, 1.0)
+    assert table.hand.over is not None
+    assert table.hand.described(table.hand.over) == "ratio of edge 0-1 = 0.5"
+    table.hand.ask()
+    prompt = table.state.prompt
+    assert prompt is not None
+    assert (prompt.title, prompt.text) == ("ratio of edge 0-1 =", "0.5")
+    for text, ratio in (("0.07", 0.07), ("5", 0.98)):
+        table.hand.ask()
+        table.state.type_text(text)
+        table.state.type_key("ENTER")
+        table.draw()
+        assert table.state.subject.value("creases").tolist() == [[0.0, 1.0, ratio]]
+        assert table.state.notice == f"ratio of edge 0-1 = {ratio:g}"
+    table.hand.ask()
+    table.state.type_text("wide")
+    table.state.type_key("ENTER")
+    assert table.state.notice == "expected a number, found 'wide'"
+    table.state.type_key("ESC")
+    table.drag(0, (12.0, 9.0))
+    assert table.state.notice.startswith("ratio of edge 0-1 = 0.")

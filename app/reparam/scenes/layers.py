@@ -205,6 +205,20 @@ Click = Callable[[Mapping[str, Any], int], Mapping[str, Any]]
 
 
 @dataclass(frozen=True)
+class Dial:
+    """Numbers (k,) that handles stand for: told and typed instead of their coordinates.
+
+    `turn(values, index, number)` returns the parameters that change, as `drag` does.
+    """
+
+    numbers: Array
+    turn: Callable[[Mapping[str, Any], int, float], Mapping[str, Any]]
+
+    def __post_init__(self) -> None:
+        freeze(self)
+
+
+@dataclass(frozen=True)
 class Handles:
     """What a hand can drag: points (k, 3). The window shows them, a picture only if asked to.
 
@@ -221,6 +235,7 @@ class Handles:
     radius: float = 4.0  # figure units
     quiet: bool = False  # many: in the window only with the control net, or under the mouse
     click: Click | None = None
+    dial: Dial | None = None
 
     def __post_init__(self) -> None:
         freeze(self)

@@ -21,6 +21,7 @@ from . import palette
 from .layers import (
     Array,
     Color,
+    Dial,
     Dots,
     Handles,
     Kind,
@@ -251,16 +252,20 @@ def edge_handles(control: Mesh, ratios: Array) -> Handles:
     middle = control.vertices[t.ends].mean(1)
     way = inside - middle
 
-    def drag(values: Mapping[str, Any], index: int, point: Array) -> Mapping[str, Any]:
+    def turn(values: Mapping[str, Any], index: int, ratio: float) -> Mapping[str, Any]:
         a, b = t.ends[index]
-        along = way[index] @ (point - middle[index]) / max(way[index] @ way[index], 1e-30)
         rows = {tuple(sorted(map(int, row[:2]))): row for row in values["creases"]}
-        rows[min(a, b), max(a, b)] = np.array([a, b, np.clip(along, LEAST, MOST)])
+        rows[min(a, b), max(a, b)] = np.array([a, b, np.clip(ratio, LEAST, MOST)])
         return {"creases": np.array([*rows.values()])}
+
+    def drag(values: Mapping[str, Any], index: int, point: Array) -> Mapping[str, Any]:
+        along = way[index] @ (point - middle[index]) / max(way[index] @ way[index], 1e-30)
+        return turn(values, index, along)
 
     names = tuple(f"ratio of edge {a}-{b}" for a, b in t.ends)
     at = middle + ratios[:, None] * way
-    return Handles(at, drag, names, color=palette.rgb("E69F00"), radius=3.5)
+    dial = Dial(ratios, turn)
+    return Handles(at, drag, names, color=palette.rgb("E69F00"), radius=3.5, dial=dial)
 
 
 @remember

@@ -183,12 +183,17 @@ class Hand:
             return
         spatial = panel.space.spatial
         self.chosen = grip
-        title = f"{layer.name(grip.index)} =  x, y{', z' if spatial else ''}"
-        start = coordinates(layer.at[grip.index], spatial)[1:-1]
-        self._state.ask(title, lambda text: self._put(grip, text, 3 if spatial else 2), start)
+        if layer.dial is not None:
+            title, count = f"{layer.name(grip.index)} =", 1
+            start = f"{layer.dial.numbers[grip.index]:.4g}"
+        else:
+            title = f"{layer.name(grip.index)} =  x, y{', z' if spatial else ''}"
+            start = coordinates(layer.at[grip.index], spatial)[1:-1]
+            count = 3 if spatial else 2
+        self._state.ask(title, lambda text: self._put(grip, text, count), start)
 
     def _put(self, grip: Grip, text: str, count: int) -> None:
-        """A handle to the coordinates that were typed, or a parameter. Raises UsageError."""
+        """A handle to the coordinates or the number typed, or a parameter. Raises UsageError."""
         if "=" in text:
             self._state.set_by_text(text)
             return
@@ -199,16 +204,23 @@ class Hand:
             if layer is None or len(numbers) != count or not (np.abs(point) <= LARGEST).all():
                 raise ValueError
         except ValueError:
-            raise UsageError(f"expected {count} numbers, found {text!r}") from None
-        self.move(grip, np.array([*numbers, *layer.at[grip.index, count:]]))
+            expected = f"{count} numbers" if count > 1 else "a number"
+            raise UsageError(f"expected {expected}, found {text!r}") from None
+        if layer.dial is not None:
+            values = self._state.subject.values
+            self._state.change(layer.dial.turn(values, grip.index, numbers[0]))
+        else:
+            self.move(grip, np.array([*numbers, *layer.at[grip.index, count:]]))
         self._renew()
         self._state.say(self.described(grip))
 
     def described(self, grip: Grip) -> str:
-        """Name and coordinates of a handle."""
+        """Name and coordinates of a handle, or the number that it stands for."""
         panel, layer = self.panel(grip.space), self.layer(grip)
         if panel is None or layer is None:
             return ""
+        if layer.dial is not None:
+            return f"{layer.name(grip.index)} = {layer.dial.numbers[grip.index]:.4g}"
         point = coordinates(layer.at[grip.index], panel.space.spatial)
         return f"{layer.name(grip.index)} = {point}"
 
