@@ -7,12 +7,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .errors import FileFormatError, UsageError
 from .files.progress import Progress, silent
 from .files.saved import is_saved
-from .geometry.body import Body
 from .geometry.camera import View
 from .scenes.cursor import Cursor, is_linked, marked, parse, within
 from .scenes.display import Display
@@ -21,6 +20,9 @@ from .scenes.linked import linked
 from .scenes.parameters import Parameter, find, parameters_of
 from .scenes.registry import Scene, file_scene, load_scene, scene_names
 from .scenes.remember import remember
+
+if TYPE_CHECKING:
+    from .geometry.body import Body
 
 DISPLAY = parameters_of(Display)
 

@@ -11,7 +11,6 @@ import moderngl
 from ..assets import FILE_LINES, ShaderSource, expand_shader, read_shaders
 from ..errors import GraphicsError
 from ..geometry.curvature import REGULAR
-from ..geometry.distortion import FARTHEST
 from ..geometry.net import MAX_ORDER
 from ..geometry.normal import SINGULAR_FACTOR, SINGULAR_SINE, SINGULAR_STEP
 from ..scenes.layers import Color
@@ -67,7 +66,6 @@ def stage_source(
         "SINGULAR_STEP": SINGULAR_STEP,
         "SINGULAR_FACTOR": SINGULAR_FACTOR,
         "REGULAR": REGULAR,
-        "FARTHEST": FARTHEST,
         "ZEBRA_BANDS": float(ZEBRA_BANDS),
         "LOW_COLOR": _numbers(LOW_COLOR),
         "HIGH_COLOR": _numbers(HIGH_COLOR),
@@ -76,6 +74,10 @@ def stage_source(
         "LEVEL_FULL": LEVEL_FULL,
         **defines,
     }
+    if "LOCATED" in defines:
+        from ..geometry.distortion import FARTHEST
+
+        constants |= {"FARTHEST": FARTHEST}
     if "TRIMMED" in defines:
         from ..geometry.trimming.cells import DIVISION, MARGIN  # a plain picture starts without
 

@@ -7,7 +7,6 @@ from itertools import pairwise
 import numpy as np
 
 from ..geometry.curvature import round_scale, sampled_curvatures
-from ..geometry.distortion import sampled_distortions
 from ..scenes import palette
 from ..scenes.layers import Array, Color, Patches, Space
 from ..scenes.shading import (
@@ -68,6 +67,8 @@ class Shapes:
         samples = int(np.clip((SAMPLES / len(nets)) ** 0.5, 2, 16))
 
         def made() -> tuple[Array, Array]:
+            from ..geometry.distortion import sampled_distortions  # a plain start goes without
+
             return maps, sampled_distortions(nets, maps, samples).reshape(-1, 3)
 
         return self._values.get(layer.net, id(maps), made)[1]
