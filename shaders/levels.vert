@@ -19,12 +19,14 @@ uniform int texture_stride;   // 0: one map shared by all patches
 out vec2 steps;
 
 void main() {
-    Spread seen = spread(position_net, patch_index, position_degree, clip_from_model, half_size);
-    vec3 need = level_coefficients(seen, 1.0, tolerance);
+    Bends seen = bends(position_net, patch_index, position_degree, clip_from_model, half_size);
 #ifdef TEXTURED
-    Spread sought =
-        spread(texture_net, patch_index * texture_stride, texture_degree, mat4(1.0), vec2(1.0));
-    need += level_coefficients(sought, pixels_a_unit(seen, sought), tolerance);
+    Bends sought =
+        bends(texture_net, patch_index * texture_stride, texture_degree, mat4(1.0), vec2(1.0));
+    float unit = pixels_a_unit(seen, sought);
+#else
+    Bends sought = flat_bends();
+    float unit = 0.0;
 #endif
-    steps = seen.out_of_view ? vec2(0.0) : balance(min(need, 1e12));
+    steps = seen.out_of_view ? vec2(0.0) : fewest_steps(seen, tolerance, sought, unit);
 }

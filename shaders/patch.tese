@@ -16,7 +16,10 @@ layout(quads, equal_spacing, ccw
 in int patch_of_surface[];
 
 #ifdef ADAPTIVE
-uniform ivec3 tile;   // which in u, in v; how many along each side
+#include "lib/snap.glsl"
+in ivec2 inner_of_surface[];
+in ivec4 outer_of_surface[];
+in ivec4 tile_of_surface[];
 #else
 uniform int level;
 uniform ivec4 tile;
@@ -33,28 +36,16 @@ flat out vec4 probed_point;
 flat out vec3 probed_normal;
 #endif
 
-#ifdef ADAPTIVE
-// The levels of a patch and of its edges differ. A vertex on an edge counts that edge's steps, so
-// both patches beside it compute the same pair of parameters.
-vec4 adaptive_parameters() {
-    ivec2 n = ivec2(gl_TessLevelInner[0] + 0.5, gl_TessLevelInner[1] + 0.5);
-    vec2 at = gl_TessCoord.xy;
-    if (at.x == 0.0 || at.x == 1.0)
-        n.y = int(gl_TessLevelOuter[at.x == 0.0 ? 0 : 2] + 0.5);
-    if (at.y == 0.0 || at.y == 1.0)
-        n.x = int(gl_TessLevelOuter[at.y == 0.0 ? 1 : 3] + 0.5);
-    return grid_parameters(tile.xy * n + ivec2(at * vec2(n) + 0.5), n * tile.z);
-}
-#endif
-
 void main() {
     int patch_index = patch_of_surface[0];
 #ifdef ADAPTIVE
-    emit_surface(patch_index, adaptive_parameters());
+    ivec4 tile = tile_of_surface[0];
+    ivec2 steps = inner_of_surface[0];
+    ivec2 step_index = ivec2(gl_TessCoord.xy * vec2(tile.zw) + 0.5);
+    snap(step_index, steps, tile, outer_of_surface[0]);
+    emit_surface(patch_index, grid_parameters(step_index, steps));
 #ifdef LEVEL
-    emit_steps(tile.z * ivec2(gl_TessLevelInner[0] + 0.5, gl_TessLevelInner[1] + 0.5),
-               tile.z * ivec4(gl_TessLevelOuter[0] + 0.5, gl_TessLevelOuter[1] + 0.5,
-                              gl_TessLevelOuter[2] + 0.5, gl_TessLevelOuter[3] + 0.5));
+    emit_steps(inner_of_surface[0], outer_of_surface[0]);
 #endif
 #else
     ivec2 step_index = tile.xy + ivec2(gl_TessCoord.xy * vec2(tile.zw) + 0.5);

@@ -6,8 +6,10 @@ out int patch_of_vertex;
 #ifdef ADAPTIVE
 in ivec2 inner;
 in ivec4 outer;
+in ivec4 tile;
 out ivec2 inner_of_vertex;
 out ivec4 outer_of_vertex;
+out ivec4 tile_of_vertex;
 #endif
 
 void main() {
@@ -15,6 +17,7 @@ void main() {
 #ifdef ADAPTIVE
     inner_of_vertex = inner;
     outer_of_vertex = outer;
+    tile_of_vertex = tile;
 #endif
     gl_Position = vec4(0.0);
 }

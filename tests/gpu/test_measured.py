@@ -13,7 +13,6 @@ from truth import random_nets
 
 from reparam.geometry.camera import Camera, View, frame
 from reparam.geometry.evaluate import sample_surface
-from reparam.geometry.levels import grid_levels
 from reparam.gpu.accuracy import Drawn, deviations, located, surface_points
 from reparam.gpu.adaptive import Plan, Tolerance, uniform_plan
 from reparam.gpu.surfaces import Fine
@@ -96,8 +95,6 @@ def test_level_colours_are_the_plan_s(
     camera = frame(sample_surface(NETS), *SIZE, View(zoom), True)
     plan = planned(studio, camera, evaluator, fine)
     inner, edges = plan.inner, plan.edges
-    if evaluator == "vertex" and not isinstance(fine, int):
-        inner, edges = grid_levels(inner, edges)
     alone = Drawn(studio.painter, Patches(NETS), camera, evaluator, plan, SIZE)
     places, _ = located(alone)
     found = drawn(studio, target, camera, evaluator, fine, ("level", 1e9))  # as wide as may be

@@ -1,69 +1,196 @@
 """How finely a patch must be tessellated so that no drawn point is off by more than so many pixels.
 
-Twin: shaders/lib/levels.glsl, same names. A triangle that spans hu x hv of the parameter square
-differs from the surface, at the same parameter, by at most
+Twin: shaders/lib/levels.glsl, same names. The difference counts *at the same parameter*, so a
+texture lies where it belongs (Y. Yeo, L. Bin, J. Peters, Efficient pixel-accurate rendering of
+curved surfaces, I3D 2012). On a triangle with barycentric coordinates l and edges e, f differs from
+its linear interpolant by at most
 
-    (hu^2 Muu + 2 hu hv Muv + hv^2 Mvv) / 8
+    1/2 sum_(i<j) l_i l_j max |f''[e_ij, e_ij]|
 
-with M the largest second derivatives (D. Filip, R. Magedson, R. Markot, Surface algorithms using
-bounds on derivatives, CAGD 3, 1986), and these are at most the second differences of the control
-net times du (du-1), du dv, dv (dv-1). The difference counts *at the same parameter*, so a texture
-lies where it belongs (Y. Yeo, L. Bin, J. Peters, Efficient pixel-accurate rendering of curved
-surfaces, I3D 2012). Clip coordinates of a rational patch, under any camera, are polynomial in
-(u,v); the bound is for their quotient.
+(S. Waldron, The error in linear interpolation at the vertices of a simplex, SIAM J. Numer. Anal.
+35, 1998). f''[(x,y), (x,y)] = x^2 f_uu + 2 x y f_uv + y^2 f_vv is taken as one vector, with f_uu,
+f_uv and f_vv raised to one degree, whose control points bound it: where they pull apart, as on a
+saddle, they are not added up. (Adding them up is the bound of D. Filip, R. Magedson, R. Markot,
+CAGD 3, 1986: here a third more triangles, and more where it hurts most.) It holds for all triangles
+whose edges go no further than a step each way: adaptive.vert makes such ones where levels change.
+
+Clip coordinates of a rational patch, under any camera, are polynomial in (u,v), and so are those
+drawn in a triangle; the bound is for their quotient.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from .net import Array
 
 FINEST = 4096  # no level above
-TWIST = 0.1  # see `balance`
+TINY = 1e-30
+STEEPEST = 64.0  # of the slopes that a bound is kept for; beyond it is interpolated
+SLOPES = 9  # tried from the middle outwards
+GROWTHS = 160  # that lead from 1 to FINEST
+TRIES = 6  # steps are made fewer so many times, one at a time
 
 
-def second_derivatives(nets: Array) -> tuple[Array, Array, Array]:
-    """Control points of d2/du2, d2/dudv and d2/dv2 of nets (..., m, n, c), as they come."""
-    m, n = nets.shape[-3] - 1, nets.shape[-2] - 1
-    in_u, in_v = np.diff(nets, axis=-3), np.diff(nets, axis=-2)
-    return (
-        m * (m - 1) * np.diff(in_u, axis=-3),
-        m * n * np.diff(in_u, axis=-2),
-        n * (n - 1) * np.diff(in_v, axis=-2),
-    )
+@dataclass(frozen=True)
+class Bends:
+    """The largest second derivatives of nets (...,), in pixels, for edges (1, t) of any slope t.
 
-
-def level_coefficients(nets: Array, scale: tuple[float, float], tolerance: float) -> Array:
-    """(a, b, c) of each patch (..., 3): steps nu x nv are fine enough if
-
-        a / nu^2 + 2 b / (nu nv) + c / nv^2 <= 1.
-
-    `nets` (..., m, n, 4) in clip coordinates with `scale` the viewport's half width and height,
-    or a texture map with `scale` the pixels of a unit of s and t; `tolerance` in pixels. With x
-    measured from the patch's own middle and the deviations E of x, y and w, x/w is off by at most
-    (E_x + |x/w| E_w) / (w - E_w), and |x/w| is at most the patch's half extent. Infinite where
-    w <= 0.
+    With A, B, C the control points of f_uu, f_uv, f_vv: |A|, |B|, |C|; at three slopes t
+    |A +- t B|, |B +- t C| and |A +- 2 t B + t^2 C|; and of neighbouring slopes
+    |A +- (s + t) B + s t C|: as quadratics in t, Bezier form bounds them in between.
     """
-    least = nets[..., 3].min((-2, -1))
+
+    uu: Array
+    uv: Array
+    vv: Array
+    slopes: Array  # (..., 3)
+    from_u: Array  # (..., 3)
+    from_v: Array  # (..., 3)
+    edge: Array  # (..., 3)
+    between: Array  # (..., 2)
+    weight: Array  # (..., 3): the largest second derivatives of w
+    least: Array  # the smallest w
+    extent: Array  # pixels across all control points
+
+
+def second_derivative(nets: Array, axis: int) -> Array:
+    """The control points of d2/du2 (axis -3) or d2/dv2 (-2), raised to the degree of the net."""
+    points = np.moveaxis(nets, axis, -2)
+    degree = points.shape[-2] - 1
+    raised = np.zeros_like(points)
+    for i in range(degree + 1 if degree > 1 else 0):
+        weights = (i * (i - 1), 2 * i * (degree - i), (degree - i) * (degree - i - 1))
+        for k, weight in zip((i - 2, i - 1, i), weights, strict=True):
+            if weight:
+                a, b, c = (points[..., k + step, :] for step in range(3))
+                raised[..., i, :] += weight * ((a - b) - (b - c))
+    return np.moveaxis(raised, -2, axis)
+
+
+def mixed_derivative(nets: Array) -> Array:
+    """The control points of d2/dudv, raised to the degree of the net."""
+
+    def derivative(nets: Array, axis: int) -> Array:
+        points = np.moveaxis(nets, axis, -2)
+        degree = points.shape[-2] - 1
+        raised, legs = np.zeros_like(points), np.diff(points, axis=-2)
+        i = np.arange(degree)[:, None]
+        raised[..., 1:, :] += (i + 1) * legs
+        raised[..., :-1, :] += (degree - i) * legs
+        return np.moveaxis(raised, -2, axis)
+
+    return derivative(derivative(nets, -3), -2)
+
+
+def bends(nets: Array, scale: tuple[float, float]) -> Bends:
+    """Of nets (..., m, n, 4) in clip coordinates, with `scale` the viewport's half width and
+    height in pixels.
+
+    With x measured from the patch's own middle and the deviations E of x, y and w, x/w is off by
+    at most (E_x + |x/w| E_w) / (w - E_w), and |x/w| is at most the patch's half extent.
+    """
     safe = np.where(nets[..., 3:] > 0.0, nets[..., 3:], 1.0)
     places = nets[..., :2] / safe
     low, high = places.min((-3, -2)), places.max((-3, -2))
     centred = nets.copy()
     centred[..., :2] -= ((low + high) / 2.0)[..., None, None, :] * nets[..., 3:]
-    reach = (high - low)[..., None, None, :] / 2.0
-    off, w = [], []
-    for bent in second_derivatives(centred):
-        size = np.abs(bent)
-        along = (size[..., :2] + reach * size[..., 3:]) * np.array(scale)
-        off.append(_longest(along))
-        w.append(size[..., 3].max((-2, -1), initial=0.0))
+    centred[..., :2] *= np.array(scale)
+    half = np.hypot(*np.moveaxis((high - low) * np.array(scale) / 2.0, -1, 0))
+    reach = half[..., None, None]
+    a, c = second_derivative(centred, -3), second_derivative(centred, -2)
+    b = mixed_derivative(centred)
+
+    def largest(derivative: Array) -> Array:
+        x, y, _, w = np.moveaxis(derivative, -1, 0)
+        return np.asarray((np.hypot(x, y) + reach * np.abs(w)).max((-2, -1)))
+
+    def either(x: Array, y: Array, z: Array | None = None) -> Array:
+        rest = x if z is None else x + z
+        return np.maximum(largest(rest + y), largest(rest - y))
+
+    uu, uv, vv = largest(a), largest(b), largest(c)
+    slope = np.clip(np.sqrt((uu + TINY) / (vv + TINY)), 1.0 / STEEPEST, STEEPEST)
+    slopes = slope[..., None] * np.array([0.5, 1.0, 2.0])
+    t = [slopes[..., k][..., None, None, None] for k in range(3)]
+    return Bends(
+        uu, uv, vv, slopes,
+        np.stack([either(a, t[k] * b) for k in range(3)], -1),
+        np.stack([either(b, t[k] * c) for k in range(3)], -1),
+        np.stack([either(a, 2.0 * t[k] * b, t[k] ** 2 * c) for k in range(3)], -1),
+        np.stack(
+            [either(a, (t[k] + t[k + 1]) * b, t[k] * t[k + 1] * c) for k in range(2)], -1
+        ),
+        np.stack([np.abs(d[..., 3]).max((-2, -1)) for d in (a, b, c)], -1),
+        nets[..., 3].min((-2, -1)),
+        2.0 * half,
+    )  # fmt: skip
+
+
+def isosceles(base: Array, side: Array) -> Array:
+    """The largest l1 l2 base + (l1 + l2) l3 side, where l1 + l2 + l3 = 1."""
+    acute = base < 2.0 * side
+    return np.where(acute, side**2 / np.where(acute, 4.0 * side - base, 1.0), base / 4.0)
+
+
+def edge_bend(s: Bends, t: Array) -> Array:
+    """The largest |f''[e, e]| of edges e = (x, y), |x| <= 1 and |y| <= t (...,)."""
+    low, high = s.slopes[..., 0], s.slopes[..., 2]
+    upper = t > s.slopes[..., 1]
+    first, last = (np.where(upper, s.slopes[..., k + 1], s.slopes[..., k]) for k in (0, 1))
+
+    def pick(values: Array, k: int) -> Array:
+        return np.where(upper, values[..., k + 1], values[..., k])
+
+    middle = np.where(upper, s.between[..., 1], s.between[..., 0])
+    share = np.clip((t - first) / (last - first), 0.0, 1.0)
+    from_u = _line(pick(s.from_u, 0), pick(s.from_u, 1), share)
+    from_v = t * _line(pick(s.from_v, 0), pick(s.from_v, 1), share)
+    edge = _parabola(pick(s.edge, 0), middle, pick(s.edge, 1), share)
+
+    share = np.minimum(t / low, 1.0)
+    flat_u = _line(s.uu, s.from_u[..., 0], share)
+    flat_v = t * _line(s.uv, s.from_v[..., 0], share)
+    flat = _parabola(s.uu, s.from_u[..., 0], s.edge[..., 0], share)
+
+    share = np.minimum(high / t, 1.0)
+    steep_u = t * _line(s.uv, s.from_u[..., 2] / high, share)
+    steep_v = t**2 * _line(s.vv, s.from_v[..., 2] / high, share)
+    steep = t**2 * _parabola(s.vv, s.from_v[..., 2] / high, s.edge[..., 2] / high**2, share)
+
+    found = np.maximum(np.maximum(from_u, from_v), edge)
+    found = np.where(t < low, np.maximum(np.maximum(flat_u, flat_v), flat), found)
+    found = np.where(t > high, np.maximum(np.maximum(steep_u, steep_v), steep), found)
+    return np.maximum(found, np.maximum(s.uu, t**2 * s.vv))
+
+
+def _line(a: Array, b: Array, t: Array) -> Array:
+    return a + (b - a) * t
+
+
+def _parabola(a: Array, b: Array, c: Array, t: Array) -> Array:
+    return _line(_line(a, b, t), _line(b, c, t), t)
+
+
+def share_used(s: Bends, steps: Array, tolerance: float, scale: ArrayLike = 1.0) -> Array:
+    """How much of the tolerance (in pixels) `steps` (..., 2) in u and v use up; 1 is all.
+
+    Lengths are `scale` (...,) times as many pixels as `s` has. Infinite where w <= 0. The shares
+    of a position and of its map add up.
+    """
+    nu, nv = np.moveaxis(np.asarray(steps, np.float64), -1, 0)
+    t = nu / nv
+    base = np.maximum(s.uu, t**2 * s.vv)
+    off = isosceles(base, edge_bend(s, t)) / 2.0 / nu**2
+    weight = (
+        s.weight[..., 0] / nu**2 + 2.0 * s.weight[..., 1] / (nu * nv) + s.weight[..., 2] / nv**2
+    )
     with np.errstate(divide="ignore", invalid="ignore"):
-        need = (np.stack(off, -1) + tolerance * np.stack(w, -1)) / (
-            8.0 * tolerance * least[..., None]
-        )
-    return np.asarray(np.where(least[..., None] > 0.0, need, np.inf))
+        used = (scale * off + tolerance * weight / 8.0) / (tolerance * s.least)
+    return np.asarray(np.where(s.least > 0.0, used, np.inf))
 
 
 def pixels_a_unit(clip: Array, maps: Array, half: tuple[float, float]) -> Array:
@@ -86,23 +213,48 @@ def _longest(legs: Array) -> Array:
     return np.asarray(np.hypot(legs[..., 0], legs[..., 1]).max((-2, -1), initial=0.0))
 
 
-def balance(need: Array) -> NDArray[np.int64]:
-    """The steps (..., 2) in u and v with about the fewest triangles that meet `need` (..., 3).
+def fewest_steps(
+    seen: Bends, tolerance: float, sought: Bends | None = None, unit: Array | None = None
+) -> NDArray[np.int64]:
+    """The steps (..., 2) in u and v with about the fewest triangles that keep the tolerance.
 
-    The twist is shared out: 2 b / (nu nv) <= b (k / nu^2 + 1 / (k nv^2)) for every k, and is an
-    equality at k = nu / nv. Then v gets what it needs if u takes as much, u what v left, and v
-    what u left.
+    `sought` is a texture map of its own, (s, t) in pixels if `unit` (...,) times as large. The
+    best slope is tried out; then, whole numbers, steps go up until they keep the tolerance, and
+    down, one at a time or one for the other, as long as they do. What is smaller than the
+    tolerance needs one step.
     """
-    a, b, c = np.moveaxis(np.minimum(need, 1e12), -1, 0)
-    share = np.sqrt((a + TWIST * b + 1e-30) / (c + TWIST * b + 1e-30))
-    a, c = a + b * share, c + b / share
-    nv = np.maximum(1.0, np.ceil(np.sqrt(2.0 * c)))
-    nu = np.maximum(1.0, np.ceil(np.sqrt(a / (1.0 - c / nv**2))))
-    room = 1.0 - a / nu**2
-    with np.errstate(divide="ignore", invalid="ignore"):
-        tight = np.where(room > 0.0, np.ceil(np.sqrt(c / room)), nv)
-    nv = np.clip(tight, 1.0, nv)
-    return np.asarray(np.minimum(np.stack([nu, nv], -1), FINEST).astype(np.int64))
+
+    def used(steps: Array) -> Array:
+        share = share_used(seen, steps, tolerance)
+        if sought is None or unit is None:
+            return share
+        return np.asarray(share + share_used(sought, steps, tolerance, unit))
+
+    steps, best = np.ones((*seen.uu.shape, 2)), np.full(seen.uu.shape, np.inf)
+    for k in range(SLOPES):
+        t = seen.slopes[..., 1] * 2.0 ** ((k + 1) // 2 * (-0.5 if k % 2 else 0.5))
+        along = np.minimum(used(np.stack([np.ones_like(t), 1.0 / t], -1)) ** 0.5, 1e9)
+        trial = np.maximum(np.stack([along, along / t], -1), 1.0)
+        fewer = trial.prod(-1) < 0.999 * best
+        steps, best = (
+            np.where(fewer[..., None], trial, steps),
+            np.where(fewer, trial.prod(-1), best),
+        )
+    steps = np.minimum(np.ceil(steps), FINEST)
+    for _ in range(GROWTHS):
+        more = used(steps) > 1.0
+        if not more.any():
+            break
+        finer = np.minimum(steps + np.ceil(steps / 16.0), FINEST)
+        steps = np.where(more[..., None], finer, steps)
+    for _ in range(TRIES):
+        now = steps
+        for change in ((-1.0, 0.0), (0.0, -1.0), (1.0, -1.0), (-1.0, 1.0)):
+            trial = np.maximum(now + np.array(change), 1.0)
+            fewer = (trial.prod(-1) < steps.prod(-1)) & (used(trial) <= 1.0)
+            steps = np.where(fewer[..., None], trial, steps)
+    tiny = (seen.extent <= tolerance) & (seen.least > 0.0)
+    return np.asarray(np.where(tiny[..., None], 1.0, steps).astype(np.int64))
 
 
 def out_of_view(clip: Array) -> NDArray[np.bool_]:
@@ -113,61 +265,3 @@ def out_of_view(clip: Array) -> NDArray[np.bool_]:
     w = clip[..., 3:]
     beyond = np.concatenate([clip[..., :3] > w, clip[..., :3] < -w], -1)
     return np.asarray(beyond.all((-3, -2)).any(-1) & (w > 0.0).all((-3, -2, -1)))
-
-
-def edge_numbers(nets: Array) -> NDArray[np.int32]:
-    """A number for each edge of the patches (P, m, n, 4), the same for the same curve: (P, 4).
-
-    The edges u = 0, v = 0, u = 1, v = 1; a curve is the same read backwards too.
-    """
-    nets = nets + 0.0  # -0 is 0
-    numbers = np.empty((len(nets), 4), np.int32)
-    count = 0
-    edges = [nets[:, 0], nets[:, :, 0], nets[:, -1], nets[:, :, -1]]
-    groups = [(0, 1, 2, 3)] if nets.shape[1] == nets.shape[2] else [(0, 2), (1, 3)]
-    for group in groups:
-        curves = np.stack([edges[k] for k in group], 1).reshape(len(nets) * len(group), -1)
-        backwards = curves.reshape(len(curves), -1, nets.shape[-1])[:, ::-1].reshape(curves.shape)
-        first = np.take_along_axis(curves - backwards, (curves != backwards).argmax(1)[:, None], 1)
-        canonical = np.ascontiguousarray(np.where(first <= 0.0, curves, backwards))
-        rows = canonical.view(np.dtype((np.void, canonical.dtype.itemsize * canonical.shape[1])))
-        _, found = np.unique(rows.ravel(), return_inverse=True)
-        numbers[:, group] = count + found.reshape(len(nets), len(group))
-        count += int(found.max()) + 1
-    return numbers
-
-
-def edge_levels(levels: NDArray[np.int64], numbers: NDArray[np.int32]) -> NDArray[np.int64]:
-    """The level of each edge (P, 4): the most that a patch along it asks for in levels (P, 2).
-
-    An edge as fine as the finest patch beside it keeps the bound in the triangles along it, and
-    neighbours agree, so nothing cracks. (By the edge curve alone a straight edge of a bent patch
-    would get one step, and the long triangles there would leave the surface.)
-    """
-    asked = levels[:, [1, 0, 1, 0]].ravel()
-    finest = np.zeros(int(numbers.max(initial=0)) + 1, np.int64)
-    np.maximum.at(finest, numbers.ravel(), asked)
-    return np.maximum(finest[numbers], 1)
-
-
-STEPS = np.unique([k << s for k in (2, 3) for s in range(14)] + [1])
-"""1, 2, 3, 4, 6, 8, 12 ...: few enough levels that patches of one level are many."""
-
-
-def grid_levels(
-    levels: NDArray[np.int64], edges: NDArray[np.int64]
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """The same and finer, of `STEPS`: levels (P, 2) of grids that can snap to edges (P, 4).
-
-    A vertex on an edge goes to the nearest of the edge's steps: a triangle there spans up to half
-    a step of the edge and one of the grid, and may span one of `levels`. With as many steps in
-    both it spans just one.
-    """
-    edges = STEPS[np.searchsorted(STEPS, edges)]
-    along = edges[:, [[1, 3], [0, 2]]]  # patch, direction, side
-    fine = STEPS[np.searchsorted(STEPS, np.maximum(levels, along.max(-1)))]
-    for _ in range(2):  # what is made finer for one side may no longer be the other's
-        snaps = along != fine[..., None]
-        least = np.where(snaps, 1.0 / (1.0 / levels[..., None] - 0.5 / along), 1.0).max(-1)
-        fine = STEPS[np.searchsorted(STEPS, np.maximum(fine, np.ceil(least - 1e-9)))]
-    return fine, edges

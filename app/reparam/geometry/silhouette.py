@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .bernstein import bernstein, bernstein_derivative
-from .levels import edge_numbers
+from .edge_levels import edge_numbers
 from .net import Array
 
 COARSEST, FINEST = 8, 256  # steps of a patch in which the curves are sought

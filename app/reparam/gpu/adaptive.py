@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 import moderngl
@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.camera import Camera
-from ..geometry.levels import edge_levels, edge_numbers, grid_levels
+from ..geometry.edge_levels import STEPS, edge_levels, edge_numbers, grid_levels, in_tiles
+from ..geometry.levels import FINEST
 from ..geometry.net import Array
 from ..scenes.layers import Patches
 from .context import Capabilities
@@ -22,11 +23,9 @@ from .programs import Program, Programs, degree_defines
 
 HARDWARE_LEVEL = 64  # what every OpenGL 4 promises
 FINEST_GRID = 1024  # of the vertex evaluator, which keeps its grids
-SOFTWARE_CHUNK = 64  # llvmpipe's tessellator is quadratic in the patches of one draw
 
-# Where an edge has other steps than the patch, how they are stitched is the driver's: triangles
-# there may span a third more than a step. (The vertex evaluator's own stitching spans no more.)
-STITCHING = {"vertex": 1.0, "tessellation": 1.35**2}
+# llvmpipe's tessellator is quadratic in the patches of a draw, and counts vertices by 16 bits.
+SOFTWARE_PATCHES, SOFTWARE_VERTICES = 64, 1 << 16
 
 Ints = NDArray[np.int64]
 SetCommon = Callable[[Program], None]
@@ -42,11 +41,13 @@ class Tolerance:
 
 @dataclass(frozen=True)
 class Plan:
-    """The patches in view (k,), their levels (k, 2), and those of their edges (k, 4)."""
+    """The patches in view (k,), their levels (k, 2), those of their edges (k, 4), at most the
+    patch's own along them, and in how many tiles (k, 2) each is drawn."""
 
     patches: Ints
     inner: Ints
     edges: Ints
+    tiles: Ints
 
     def triangles(self) -> int:
         """About how many triangles they make: two a cell."""
@@ -56,7 +57,8 @@ class Plan:
 def uniform_plan(layer: Patches, level: int) -> Plan:
     """One level for all patches and edges."""
     count = patch_count(layer.net)
-    return Plan(np.arange(count), np.full((count, 2), level), np.full((count, 4), level))
+    levels, tiles = np.full((count, 2), level), np.full((count, 2), -(-level // HARDWARE_LEVEL))
+    return Plan(np.arange(count), levels, levels[:, [1, 0, 1, 0]], tiles)
 
 
 class Adaptive:
@@ -73,9 +75,9 @@ class Adaptive:
         self._programs = programs
         self._evaluation = evaluation
         self._fineness = Fineness(ctx, programs, evaluation)
-        self._chunk = SOFTWARE_CHUNK if capabilities.software else 1 << 20
+        self._software = capabilities.software
         self._edges: Kept[NDArray[np.int32]] = Kept(lambda _: None)
-        self._grids: dict[tuple[int, int], tuple[moderngl.Buffer, moderngl.Buffer]] = {}
+        self._grids: dict[tuple[int, int, bool], tuple[moderngl.Buffer, moderngl.Buffer]] = {}
 
     def sweep(self) -> None:
         """End of a frame."""
@@ -83,11 +85,18 @@ class Adaptive:
 
     def plan(self, layer: Patches, camera: Camera, evaluator: str, tolerance: Tolerance) -> Plan:
         """The levels of a layer's patches in this view."""
-        pixels = tolerance.pixels / STITCHING[evaluator]
-        steps = self._fineness.read(layer, camera, tolerance.viewport, pixels)
-        edges = edge_levels(steps, self._edges.get(layer.net, None, lambda: _numbers(layer.net)))
+        steps = self._fineness.read(layer, camera, tolerance.viewport, tolerance.pixels)
         seen = np.flatnonzero(steps.any(-1))
-        return Plan(seen, steps[seen], edges[seen])
+        numbers = self._edges.get(layer.net, None, lambda: _numbers(layer.net))
+        finest = FINEST_GRID if evaluator == "vertex" else FINEST
+        steps = np.minimum(steps, finest)[seen]
+        numbers = numbers[seen]
+        edges = edge_levels(steps, numbers)
+        inner = grid_levels(steps, edges)
+        if evaluator == "vertex":
+            inner = STEPS[np.searchsorted(STEPS, inner)]
+            return Plan(seen, inner, edges, np.ones_like(inner))
+        return Plan(seen, *in_tiles(inner, edges, numbers, HARDWARE_LEVEL))
 
     def draw(
         self,
@@ -134,14 +143,13 @@ class Adaptive:
     # The vertex evaluator: patches of one level together -------------------------------------
 
     def _draw_grids(self, program: Program, plan: Plan) -> None:
-        inner, outer = (np.minimum(levels, FINEST_GRID) for levels in (plan.inner, plan.edges))
-        uniform = (outer == inner[0, 0]).all() and (inner == inner[0, 0]).all()
-        levels, edges = (inner, outer) if uniform else grid_levels(inner, outer)
+        levels, edges = plan.inner, plan.edges
+        snaps = bool((edges != levels[:, [1, 0, 1, 0]]).any())
         order = np.lexsort(levels.T)
         _, starts = np.unique(levels[order], axis=0, return_index=True)
         for group in np.split(order, np.sort(starts)[1:]):
             level = (int(levels[group[0], 0]), int(levels[group[0], 1]))
-            vertices, indices = self._grid(level)
+            vertices, indices = self._grid(level, snaps)
             rows = np.column_stack([plan.patches[group], edges[group]]).astype(np.int32)
             instances = self._ctx.buffer(rows.tobytes())
             program.set(level=level)
@@ -154,39 +162,69 @@ class Adaptive:
             array.release()
             instances.release()
 
-    def _grid(self, level: tuple[int, int]) -> tuple[moderngl.Buffer, moderngl.Buffer]:
-        if level not in self._grids:
+    def _grid(self, level: tuple[int, int], snaps: bool) -> tuple[moderngl.Buffer, moderngl.Buffer]:
+        """Steps and triangles, as mesh.vert has them; if vertices snap, as snap.glsl does."""
+        key = (*level, snaps)
+        if key not in self._grids:
             corner = np.arange((level[0] + 1) * (level[1] + 1), dtype=np.int32)
             steps = np.stack(np.divmod(corner, level[1] + 1), -1).astype(np.int32)
             grid = corner.reshape(level[0] + 1, level[1] + 1)
             a, b, c, d = grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]
-            cells = np.stack([a, b, c, a, c, d], -1)
-            self._grids[level] = (
+            i, j = np.indices(a.shape)
+            rising = ((2 * i + 1 < level[0]) == (2 * j + 1 < level[1])) | (not snaps)
+            cells = np.where(
+                rising[..., None],
+                np.stack([a, b, c, a, c, d], -1),
+                np.stack([a, b, d, b, c, d], -1),
+            )
+            self._grids[key] = (
                 self._ctx.buffer(steps.tobytes()),
                 self._ctx.buffer(cells.tobytes()),
             )
-        return self._grids[level]
+        return self._grids[key]
 
     # Tessellation ---------------------------------------------------------------------------
 
     def _tessellate(self, program: Program, plan: Plan) -> None:
-        """All tiles of all patches; only levels above the hardware's need more than one."""
-        rows = np.column_stack([plan.patches, plan.inner, plan.edges]).astype(np.int32)
-        finest = int(max(plan.inner.max(), plan.edges.max()))
-        tiles = -(-finest // HARDWARE_LEVEL)
+        """A patch with a level above the hardware's is as many rows as it needs tiles."""
+        rows = tiled(plan)
         numbers = self._ctx.buffer(rows.tobytes())
         self._ctx.patch_vertices = 1
-        for u in range(tiles):
-            for v in range(tiles):
-                program.set(tile=(u, v, tiles))
-                array = self._ctx.vertex_array(
-                    program.ready(), [(numbers, "1i 2i 4i", "patch_index", "inner", "outer")]
-                )
-                for first in range(0, len(rows), self._chunk):
-                    count = min(self._chunk, len(rows) - first)
-                    array.render(moderngl.PATCHES, vertices=count, first=first)
-                array.release()
+        names = ("patch_index", "inner", "outer", "tile")
+        array = self._ctx.vertex_array(program.ready(), [(numbers, "1i 2i 4i 4i", *names)])
+        vertices = (rows[:, 9:] + 1).prod(-1)
+        for first, count in draws(vertices, self._software):
+            array.render(moderngl.PATCHES, vertices=count, first=first)
+        array.release()
         numbers.release()
+
+
+def tiled(plan: Plan) -> NDArray[np.int32]:
+    """Rows (r, 11): patch, its levels, those of its edges; a tile's first step and steps."""
+    tiles = plan.tiles
+    counts = tiles.prod(-1)
+    row = np.repeat(np.arange(len(counts)), counts)
+    place = np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts)
+    at = np.stack([place // tiles[row, 1], place % tiles[row, 1]], -1)
+    levels, across = plan.inner[row], tiles[row]
+    start, end = at * levels // across, (at + 1) * levels // across
+    columns = [plan.patches[row], levels, plan.edges[row], start, end - start]
+    return np.column_stack(columns).astype(np.int32)
+
+
+def draws(vertices: NDArray[np.int32], software: bool) -> Iterator[tuple[int, int]]:
+    """The first patch and the number of patches of each draw, for patches that the tessellator
+    makes so many vertices of."""
+    if not software:
+        yield 0, len(vertices)
+        return
+    ends, first = np.cumsum(vertices, dtype=np.int64), 0
+    while first < len(vertices):
+        before = ends[first] - vertices[first]
+        fit = int(np.searchsorted(ends, before + SOFTWARE_VERTICES, "right")) - first
+        count = min(max(fit, 1), SOFTWARE_PATCHES)
+        yield first, min(count, len(vertices) - first)
+        first += count
 
 
 def _numbers(net: Array) -> NDArray[np.int32]:

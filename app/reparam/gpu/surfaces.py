@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..geometry.camera import Camera
 from ..scenes.layers import Color, Patches, Picture, Ramp, Texture
 from ..scenes.shading import DISTORTION, DRAWN, PLAIN_SCALE, Scale, Shading, attached_by
-from .adaptive import HARDWARE_LEVEL, SOFTWARE_CHUNK, Adaptive, Tolerance
+from .adaptive import HARDWARE_LEVEL, Adaptive, Tolerance, draws
 from .batches import Batches
 from .context import Capabilities
 from .evaluation import Evaluation, orders, patch_count
@@ -66,7 +66,7 @@ class Surfaces:
         self._ctx = ctx
         self._programs = programs
         self._evaluation = evaluation
-        self._chunk = SOFTWARE_CHUNK if capabilities.software else 1 << 20
+        self._software = capabilities.software
         self.pictures = Pictures(ctx, capabilities)
         self.adaptive = Adaptive(ctx, programs, evaluation, capabilities)
         self._trims = Trims(ctx)
@@ -321,10 +321,9 @@ class Surfaces:
             numbers = self._ctx.buffer(patches.tobytes())
             program.set(tile=tile)
             vertices = self._ctx.vertex_array(program.ready(), [(numbers, "1i", "patch_index")])
-            for first in range(0, len(patches), self._chunk):
-                vertices.render(
-                    moderngl.PATCHES, vertices=min(self._chunk, len(patches) - first), first=first
-                )
+            each = np.full(len(patches), (tile[2] + 1) * (tile[3] + 1), np.int32)
+            for first, count in draws(each, self._software):
+                vertices.render(moderngl.PATCHES, vertices=count, first=first)
             vertices.release()
             numbers.release()
 
