@@ -100,8 +100,8 @@ vec4 look_up() {
     float share = (FIELD(at.x, at.y) - low) / (high - low);
     vec4 tint = textureLod(image, vec2(mix(0.002, 0.998, clamp(share, 0.0, 1.0)), 0.5), 0.0);
     float line = share * contours;
-    float away = abs(line - round(line)) / max(fwidth(line), 1e-9);   // pixels
-    if (line > 0.5 && line < contours - 0.5)   // an extreme value would be a blot
+    float slope = fwidth(line), away = abs(line - round(line)) / max(slope, 1e-9);   // pixels
+    if (slope > 1e-5 && line > 0.5 && line < contours - 0.5)   // a constant, an extreme: a blot
         tint.rgb *= mix(0.45, 1.0, clamp(away, 0.0, 1.0));
     return tint;
 }

@@ -51,3 +51,29 @@ def test_a_single_patch_joins_nothing(capsys: pytest.CaptureFixture[str]) -> Non
 def test_bad_tolerances(tolerance: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["joins", "fig5", "--tolerance", tolerance]) == 2
     assert "expected a number between 0 and 1" in capsys.readouterr().err
+
+
+def test_two_files_together(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A patch of degree 1 beside the halves of its edge, of degree 2 in a file of their own."""
+    one, other = tmp_path / "one.bv", tmp_path / "other.bv"
+    one.write_text("4 1  0 0 0  0 1 0  1 0 0  1 1 0\n")
+    halves = []
+    for y in (0.0, 0.5):
+        points = [(1 + i / 2, y + j / 4, 0) for i in range(3) for j in range(3)]
+        halves.append("4 2  " + "  ".join(f"{x} {y} {z}" for x, y, z in points))
+    other.write_text("\n".join(halves))
+    assert main(["joins", str(one), str(other), "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["patches"] == 3
+    assert found["largest_angle"] == 0.0
+    rows = {tuple(row["patches"]): row["spans"] for row in found["joins"]}
+    assert rows == {
+        (1, 0): [[0.0, 1.0], [0.0, 0.5]],
+        (2, 0): [[0.0, 1.0], [0.5, 1.0]],
+        (1, 2): [[0.0, 1.0], [0.0, 1.0]],
+    }
+    assert main(["joins", str(one), str(other)]) == 0
+    out = capsys.readouterr().out
+    assert out.startswith(f"{one}, {other}: 3 patches, 3 joins, 7 free edges")
+    assert "  3 on 0.5..1" in out
+    assert main(["joins", str(one), str(tmp_path / "none.bv")]) == 3

@@ -17,9 +17,10 @@ SHOWN = 20  # rows of the table, unless all are asked for
 FOLDED = 179.9  # degrees between the tangent planes
 
 
-def patches_of(figure: Figure) -> Array:
-    """All patches that a figure's subject shows, of one degree: (P, m, m, 4)."""
-    layers = [layer for layer in figure.spaces[-1].layers if isinstance(layer, Patches)]
+def patches_of(*figures: Figure) -> Array:
+    """All patches that the figures' subjects show, of one degree: (P, m, m, 4)."""
+    shown = [layer for figure in figures for layer in figure.spaces[-1].layers]
+    layers = [layer for layer in shown if isinstance(layer, Patches)]
     nets = [net for layer in layers for net in layer.net.reshape(-1, *layer.net.shape[-3:])]
     if not nets:
         raise UsageError("joins: expected a subject that shows patches, found none")
@@ -110,7 +111,7 @@ def table(name: str, found: dict[str, Any], every: bool) -> Iterator[str]:
         jump, bend = (_short(row[key]) for key in ("angle", "curvature_jump"))
         low, high = row["spans"][1]
         mark = "folded" if row["folded"] else "opposed" if row["opposed"] else ""
-        mark += f" on {low:g}..{high:g}" * (high - low < 1.0)
+        mark = f"{mark} on {low:g}..{high:g}".strip() if high - low < 1.0 else mark
         yield (
             f"{one:7} {side}  {other:5} {across}  {row['gap']:8.1e}  {jump:>8}  {bend:>9}"
             f"  {_span(row['beta']):>16}  {_span(row['alpha']):>16}  {row['order']:3} {mark}"

@@ -61,7 +61,7 @@ class Subject:
 
     def _unmarked(self) -> Figure:
         data = _with_meshes(self.scene, self.values, self.data)
-        return _figure(self.scene, self.values, data, self.display.linked)
+        return _figure(self.scene, self.values, data, self.display.linked, self.display.joins)
 
     def parameters(self) -> dict[str, Parameter]:
         """The scene's parameters, then the display's."""
@@ -101,9 +101,13 @@ class Subject:
 
 @remember
 def _figure(
-    scene: Scene, values: Mapping[str, Any], data: Mapping[str, Any], beside: bool
+    scene: Scene, values: Mapping[str, Any], data: Mapping[str, Any], beside: bool, joins: bool
 ) -> Figure:
     figure = scene({**values, **data})
+    if joins:
+        from .scenes.join_lines import joined  # few ask for them
+
+        figure = joined(figure)
     return linked(figure) if beside else figure
 
 

@@ -174,7 +174,7 @@ def test_polyhedra_of_one_bv_file_are_one(tmp_path: Path) -> None:
 
 
 def test_edges_in_the_colours_of_their_joins(tmp_path: Path) -> None:
-    subject = open_subject(str(written(tmp_path, CUBE))).assigned(["edges=joins"])
+    subject = open_subject(str(written(tmp_path, CUBE))).assigned(["joins=1"])
     expected = {"off": ["kink 12"], "on": ["G1 96", "G2 96"]}
     for smooth, words in expected.items():
         figure = subject.changed("smooth", smooth).figure()

@@ -9,8 +9,10 @@ from reparam.errors import UsageError
 from reparam.exporting import parts_of
 from reparam.geometry.distortion import distortions
 from reparam.geometry.planar_maps import R
+from reparam.geometry.stretch import stretch
+from reparam.scenes.cursor import numbers
 from reparam.scenes.fields import attached_by_r, deviations, given, over_facets, over_spans, torsion
-from reparam.scenes.layers import Patches
+from reparam.scenes.layers import Label, Patches
 from reparam.scenes.linked import linked
 from reparam.scenes.shading import SQUARE, attached_by
 from reparam.subject import Subject, open_subject
@@ -81,3 +83,27 @@ def test_linked_and_exported() -> None:
     assert part.picture is not None
     assert part.picture.source == "ramp"
     assert parts_of(by_r)[0].picture is None
+
+
+def test_rates_as_plots() -> None:
+    figure = subject("field=given", "g=x", "show=rates", "degree=1", "spans=4").figure()
+    assert [space.name for space in figure.spaces] == ["plot 0", "plot 1", "physical"]
+    for plot, rate in zip(figure.spaces[:2], (2.0, 1.0), strict=True):
+        texts = [layer.text for layer in plot.layers if isinstance(layer, Label)]
+        assert texts[-1] == "degree ≥ 2:  exact"
+        assert texts[-2].startswith("degree 1:  ")
+        assert float(texts[-2].split()[-1]) == pytest.approx(rate, abs=0.05)
+    with pytest.raises(UsageError, match="show: expected field or facets, since torsion is"):
+        subject("show=rates").figure()
+
+
+def test_the_cursor_counts_by_the_square_not_by_its_pieces() -> None:
+    spans, patch = 8, 3 * 8 + 5
+    for assignments in ((), ("field=given", "attach=r")):
+        cursor = f"cursor=0.25,0.5,{patch}"
+        figure = subject(*assignments, "linked=1", cursor).figure()
+        whole = stretch(R, (3 + 0.25) / spans, (5 + 0.5) / spans)
+        for space in figure.spaces[1:]:
+            notes = dict(space.notes)
+            assert notes["det"] == numbers(whole.determinant)
+            assert notes["stretch"] == numbers(*whole.factors)

@@ -14,11 +14,12 @@ def add(commands: Commands) -> None:
     command = commands.add_parser(
         "joins",
         help="how patches or curves meet: gaps, jumps, order G^k",
-        description="Patches of a scene or a .bv file; the pieces of a curve, or a curve and the "
-        "one that goes on where it ends, from .csv or .txt files as `reparam trace` reads them.",
+        description="Patches of a scene or a .bv file, or of two of them together; the pieces of a "
+        "curve, or a curve and the one that goes on where it ends, from .csv or .txt files as "
+        "`reparam trace` reads them.",
     )
     command.add_argument("subject", metavar="SCENE|FILE")
-    command.add_argument("following", metavar="CURVE", nargs="?", type=Path)
+    command.add_argument("following", metavar="CURVE|FILE", nargs="?", type=Path)
     command.add_argument("--all", action="store_true", help="every join, not the worst alone")
     command.add_argument("--json", action="store_true", help="with r's derivatives along each edge")
     command.add_argument(
@@ -41,13 +42,19 @@ def run(options: argparse.Namespace) -> int:
         raise UsageError(
             f"--tolerance: expected a number between 0 and 1, found {options.tolerance:g}"
         )
-    if options.following or is_curve(Path(options.subject)):
+    if is_curve(Path(options.subject)) or (options.following and is_curve(options.following)):
         return _run_curve_joins(options)
-    found = report(patches_of(chosen_subject(options).figure()), options.tolerance)
+    figures, name = [chosen_subject(options).figure()], options.subject
+    if options.following:
+        from ..subject import open_subject
+
+        figures.append(open_subject(str(options.following)).figure())
+        name = f"{name}, {options.following}"
+    found = report(patches_of(*figures), options.tolerance)
     if options.json:
         print_json(found, indent=None)
     else:
-        print(*table(options.subject, found, options.all), sep="\n")
+        print(*table(name, found, options.all), sep="\n")
     return 0
 
 

@@ -33,6 +33,10 @@ class Stretch:
         largest, smallest = np.linalg.svd(self.jacobian, compute_uv=False)
         return float(largest), float(smallest)
 
+    def of_unit(self, du: float, dv: float) -> Stretch:
+        """Of a map whose unit square is du by dv in the parameters that count."""
+        return Stretch(self.jacobian / np.array([du, dv]))
+
     def after(self, first: Stretch) -> Stretch | None:
         """From the image of `first`, a map of the plane, to ours; None where it is singular."""
         largest, smallest = first.factors

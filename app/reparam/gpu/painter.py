@@ -21,6 +21,7 @@ from ..scenes.layers import (
     Label,
     Layer,
     Patches,
+    Polylines,
     Recorded,
 )
 from ..scenes.shading import OF_SUBJECT, Scale, Shading
@@ -200,7 +201,7 @@ class Painter:
                 pass
             case Label() | Handles():
                 pass
-            case IsoLines() | Dots():
+            case IsoLines() | Dots() | Polylines():
                 self.strokes.draw(layer, camera.nearer(LIFT * layer.lift), unit)
             case Recorded():
                 self.recordings.draw_layer(layer, camera, unit)

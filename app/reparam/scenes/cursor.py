@@ -167,6 +167,9 @@ def notes_of(space: Space, net: Array, cursor: Cursor, many: int) -> tuple[tuple
         rows = (("patch" if many > 1 else "", which), ("", ""))
         return ((PLACES["domain"], numbers(*parameters(space, cursor))), *rows)
     here = stretch(net, cursor.u, cursor.v)
+    if space.domains is not None:
+        u0, u1, v0, v1 = (float(t) for t in space.domains[cursor.patch])
+        here = here.of_unit(u1 - u0, v1 - v0)
     x, y, z = project(evaluate(net, cursor.u, cursor.v))
     planar = len(here.jacobian) == 2
     place = PLACES.get(space.name, "(x, y)" if planar else "(x, y, z)")

@@ -33,6 +33,7 @@ class Display:
     compare: Annotated[str, "two values of a parameter in one picture, as texture=identity|r"] = ""
     divider: Annotated[float, Range(0, 1, 0.1), "where the second one begins"] = 0.5
     blend: Annotated[float, Range(0, 1, 0.1), "how far the first one has faded into it"] = 0.0
+    joins: Annotated[bool, "the edges of patches in the colours of their joins"] = False
     linked: Annotated[bool, "beside the picture its domain, and its texture if it has one"] = False
     cursor: Annotated[str, Form(EXPECTED, is_cursor), "a point marked in all linked spaces"] = ""
     samples: Annotated[int, Range(0, 16), "samples a pixel; 0: the most up to 8"] = 0

@@ -89,6 +89,20 @@ def solution(problem: Problem, degree: int, spans: int) -> Solution:
     return solve(R, degree, spans, problem.source, problem.value)
 
 
+COUNTS = (2, 4, 8, 16, 32)  # spans
+DEGREES = (1, 2, 3)
+
+
+@lru_cache(maxsize=4)
+def convergence(problem: Problem) -> Array:
+    """The L2 errors of the spline and of its gradient: (2, DEGREES, COUNTS)."""
+    errors = [
+        [solution(problem, d, n).errors(problem.value, problem.gradient) for n in COUNTS]
+        for d in DEGREES
+    ]
+    return np.moveaxis(np.array(errors), -1, 0)
+
+
 @dataclass(frozen=True, eq=False)
 class Field:
     """A field attached to r: nets and maps over `pieces` x `pieces` parts of the square.

@@ -106,6 +106,7 @@ class Polylines:
     width: float = 1.0
     closed: bool = False
     arrow: bool = False
+    lift: int = 0  # as of iso-lines
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -263,7 +264,7 @@ class Space:
     title: str = ""  # above it; neither pan nor zoom moves it
     notes: tuple[tuple[str, str], ...] = ()  # beneath it, names and values in two columns
     map: Array | None = None  # the nets by which the parameter square lands here: linked.py
-    domains: Array | None = None  # the patches' own, where `map` shows them as their surface has
+    domains: Array | None = None  # of the map's patches in their surface's parameters
 
     def __post_init__(self) -> None:
         freeze(self)

@@ -51,11 +51,12 @@ def linked(figure: Figure) -> Figure:
     if len(textures) == len(patches):
         counts = [len(each.net) if each.net.ndim == 4 else 1 for each in patches]
         net = together([spread(t.net, n) for t, n in zip(textures, counts, strict=True)])
-        spaces.append(texture_space(Texture(net, textures[0].picture)))
+        plane_of_it = texture_space(Texture(net, textures[0].picture))
+        spaces.append(replace(plane_of_it, domains=spaces[0].domains))
     title = "physical (x, y, z)" if subject.spatial else "physical (x, y)"
     whole = together([layer.net for layer in patches])
-    shown = replace(subject, map=whole, title=subject.title or title,
-                    width=1.0, height=1.0, below=False)  # fmt: skip
+    shown = replace(subject, map=whole, domains=spaces[0].domains, width=1.0, height=1.0,
+                    title=subject.title or title, below=False)  # fmt: skip
     return replace(figure, spaces=(*spaces, shown))
 
 

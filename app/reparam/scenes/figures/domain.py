@@ -17,10 +17,14 @@ from ...geometry.net import control_net
 from ...geometry.planar_maps import R
 from .. import palette
 from ..claims import Claim, Measure
+from ..drawing import words
 from ..fields import (
+    COUNTS,
+    DEGREES,
     GIVEN,
     Field,
     attached_by_r,
+    convergence,
     deviation_words,
     deviations,
     given,
@@ -31,13 +35,27 @@ from ..fields import (
     square_pieces,
     torsion,
 )
-from ..layers import Color, Figure, IsoLines, Label, Layer, Patches, Ramp, Space, Texture, plane
+from ..layers import (
+    Array,
+    Color,
+    Figure,
+    IsoLines,
+    Label,
+    Layer,
+    Patches,
+    Ramp,
+    Space,
+    Texture,
+    plane,
+)
 from ..parameters import Presets, Range
+from ..plots import Plot
 from ..registry import scene
 from ..shading import SQUARE
 
 GRID: Color = (0.35, 0.35, 0.35)
 WAVE = GIVEN[0]
+EXACT = 1e-11  # errors below are those of arithmetic
 OMEGA = plane(-1.5, -1.5, 1.5, 1.5)
 
 
@@ -59,7 +77,8 @@ def domain(
         Literal["identity", "r"], "the computed field by the identity, or the given one by r"
     ] = "identity",
     show: Annotated[
-        Literal["field", "facets"], "square and Ω; or Ω with the map linear over facets, and exact"
+        Literal["field", "facets", "rates"],
+        "square and Ω; or Ω with the map linear over facets, and exact; or errors over spans",
     ] = "field",
     degree: Annotated[int, Range(1, 5), "of the splines that the field is sought in"] = 2,
     spans: Annotated[int, Range(1, 32), "pieces of the square in u and in v"] = 8,
@@ -67,51 +86,82 @@ def domain(
     contours: Annotated[int, Range(0, 64, 2), "lines of equal values, and one"] = 12,
     lines: Annotated[bool, "the edges of pieces and facets"] = True,
 ) -> Figure:
-    if attach == "r" and field == "torsion":
+    if field == "torsion" and (attach == "r" or show == "rates"):
+        name, expected = (
+            ("show", "field or facets") if attach == "identity" else ("attach", "identity")
+        )
+        needs = show if name == "show" else attach
         raise ValueError(
-            "attach: expected identity, since torsion is computed; r needs field=given"
+            f"{name}: expected {expected}, since torsion is computed; {needs} needs field=given"
         )
     sought = torsion() if field == "torsion" else given(g)
     seen = (
         over_spans(sought, degree, spans) if attach == "identity" else attached_by_r(sought, spans)
     )
-    low, high = seen.range
-    ramp = Ramp(low, high, seen.formula, contours)
-    scale = Space("bar", plane(-0.04, -0.13, 1.04, 0.06), bar(low, high), height=0.16, below=True)
+    ramp = Ramp(*seen.range, seen.formula, contours)
     whole = on_omega(seen, ramp, lines)
     if show == "facets":
         faceted = on_omega(over_facets(seen, facets), ramp, lines)
-        named = f"the map linear over {facets} × {facets} facets"
-        number = Label(deviation_words(seen, facets), (0.5, 0.5, 0.0), size=15.0)
-        spaces: tuple[Space, ...] = (
-            Space("words", plane(0.0, 0.0, 1.0, 1.0), (number,), height=0.16),
-            Space("physical facets", OMEGA, faceted, title=named, below=True),
-            replace(scale, below=False),
-            Space("physical", OMEGA, whole, title="the map as it is", below=True),
-        )
-        caption: tuple[str, ...] = (sought.words,)
+        return Figure(facets_beside(seen, facets, faceted, whole), (sought.words,))
+    told = f"{spans + degree} × {spans + degree} splines of degree {degree}"
+    if attach == "r":
+        told = "given, and attached by r"
+    elif field == "given":
+        off = solution(sought, degree, spans).errors(sought.value, sought.gradient)
+        told += f":  ‖p − g‖ = {off[0]:.1e},  ‖grad p − grad g‖ = {off[1]:.1e}"
+    on_the_right = Space("physical", OMEGA, whole, title="on Ω = r(square)")
+    if show == "rates":
+        spaces = (*rates(convergence(sought), degree, spans), on_the_right)
     else:
-        square = square_pieces(seen.pieces)
-        rim = IsoLines(square, u=(0.0, 1.0), v=(0.0, 1.0), color=GRID, width=0.6)
-        flat: tuple[Layer, ...] = (
-            Patches(square, Texture(seen.map, ramp, exact=True)),
-            *([rim] if lines else []),
-        )
-        spaces = (
-            Space(
-                "domain", plane(-0.02, -0.02, 1.02, 1.02), flat, title="on the square", width=0.8
-            ),
-            scale,
-            Space("physical", OMEGA, whole, title="on Ω = r(square)"),
-        )
-        words = f"{spans + degree} × {spans + degree} splines of degree {degree}"
-        if attach == "r":
-            words = "given, and attached by r"
-        elif field == "given":
-            off = solution(sought, degree, spans).errors(sought.value, sought.gradient)
-            words += f":  ‖p − g‖ = {off[0]:.1e},  ‖grad p − grad g‖ = {off[1]:.1e}"
-        caption = (sought.words, words)
-    return Figure(spaces, caption)
+        spaces = (*on_the_square(seen, ramp, lines), on_the_right)
+    return Figure(spaces, (sought.words, told))
+
+
+def on_the_square(seen: Field, ramp: Ramp, lines: bool) -> tuple[Space, Space]:
+    """The field on its parameters, and beneath it what its colours mean."""
+    square = square_pieces(seen.pieces)
+    rim = IsoLines(square, u=(0.0, 1.0), v=(0.0, 1.0), color=GRID, width=0.6)
+    patches = Patches(square, Texture(seen.map, ramp, exact=True))
+    bounds = plane(-0.02, -0.02, 1.02, 1.02)
+    layers: tuple[Layer, ...] = (patches, *([rim] if lines else []))
+    return Space("domain", bounds, layers, title="on the square", width=0.8), bar(*seen.range)
+
+
+def facets_beside(
+    seen: Field, facets: int, faceted: tuple[Layer, ...], whole: tuple[Layer, ...]
+) -> tuple[Space, ...]:
+    """Omega by the map over facets and by the map itself, and how far the first is off."""
+    number = Label(deviation_words(seen, facets), (0.5, 0.5, 0.0), size=15.0)
+    title = f"the map linear over {facets} × {facets} facets"
+    return (
+        Space("words", plane(0.0, 0.0, 1.0, 1.0), (number,), height=0.16),
+        Space("physical facets", OMEGA, faceted, title=title, below=True),
+        replace(bar(*seen.range), below=False),
+        Space("physical", OMEGA, whole, title="the map as it is", below=True),
+    )
+
+
+def rates(errors: Array, degree: int, spans: int) -> tuple[Space, Space]:
+    """Errors over the number of spans, for each degree; the one that is shown is marked."""
+    plots: list[Space] = []
+    errors = np.maximum(errors, 1e-16)
+    range_of_both = (float(errors.min()) / 3.0, 3.0 * float(errors.max()))
+    for name, one in zip(("‖p − g‖", "‖grad p − grad g‖"), errors, strict=True):
+        plot = Plot((1.0, 100.0), range_of_both, "spans", name, log=True, size=(1.0, 1.0))
+        layers: list[Layer] = []
+        for line, color in zip(one, palette.PIECES, strict=True):
+            layers += [plot.curve(COUNTS, line, color), plot.dots(COUNTS, line, color)]
+        exact = int(np.count_nonzero(one[:, -1] < EXACT))  # and so are the degrees above
+        for d, line in zip(DEGREES[: len(DEGREES) + 1 - max(exact, 1)], one, strict=False):
+            at = plot.at([COUNTS[-1]], [line[-1]])[0]
+            rate = np.log2(line[-2] / line[-1])
+            text = f"degree {d}:  {rate:.2f}" if line[-1] > EXACT else f"degree ≥ {d}:  exact"
+            layers.append(words(text, at, offset=(6.0, 0.0), anchor=(0.0, 0.5), size=13.0))
+        if degree in DEGREES and spans in COUNTS:
+            here = one[DEGREES.index(degree), COUNTS.index(spans)]
+            layers.append(plot.dots([spans], [here], palette.MOVING, 5.0))
+        plots.append(plot.space(*layers, name=f"plot {len(plots)}"))
+    return plots[0], plots[1]
 
 
 def on_omega(seen: Field, ramp: Ramp, lines: bool) -> tuple[Layer, ...]:
@@ -124,17 +174,15 @@ def on_omega(seen: Field, ramp: Ramp, lines: bool) -> tuple[Layer, ...]:
     return (patches, *([edges] if lines and seen.pieces > 1 else []), outline)
 
 
-def bar(low: float, high: float) -> tuple[Layer, ...]:
+def bar(low: float, high: float) -> Space:
     """The ramp with its numbers."""
     strip = control_net([[(0.0, 0.05), (1.0, 0.05)], [(0.0, 0.0), (1.0, 0.0)]])
-    marks = ((0.0, low), (1.0, high))
-    return (
-        Patches(strip, Texture(strip, Ramp(0.0, 1.0))),
-        *(
-            Label(f"{value:.3g}".replace("-", "−"), (x, -0.02, 0.0), anchor=(x, 1.0), size=13.0)
-            for x, value in marks
-        ),
+    ends = (
+        Label(f"{value:.3g}".replace("-", "−"), (x, -0.02, 0.0), anchor=(x, 1.0), size=13.0)
+        for x, value in ((0.0, low), (1.0, high))
     )
+    layers: tuple[Layer, ...] = (Patches(strip, Texture(strip, Ramp(0.0, 1.0))), *ends)
+    return Space("bar", plane(-0.04, -0.13, 1.04, 0.06), layers, height=0.16, below=True)
 
 
 @domain.claims

@@ -14,7 +14,6 @@ from ...geometry.mesh import Mesh
 from ...geometry.surface_spline import SurfaceSpline
 from .. import palette
 from ..attachments import Checks, Filter, Image, Wrap, attachment
-from ..join_lines import join_lines
 from ..layers import (
     Array,
     ControlNet,
@@ -27,8 +26,7 @@ from ..layers import (
     Space,
     Texture,
 )
-from ..legend import legend
-from ..merged import Merged, shown
+from ..merged import Merged
 from ..mesh_files import mesh_of
 from ..parameters import Points
 from ..registry import scene
@@ -43,7 +41,6 @@ from ..splines import (
     edge_handles,
     edges_of,
     moved_mesh,
-    nets_of,
     patch_layers,
     ratios_of,
     spline_of,
@@ -77,7 +74,6 @@ def surface(
     ratio: Ratio = 0.5,
     creases: Creases = NO_CREASES,
     vertices: Vertices = NONE_MOVED,
-    edges: Annotated[Literal["plain", "joins"], "or coloured by how patches join there"] = "plain",
     merged: Merged = False,
 ) -> Figure:
     """From .bv files as they are; polyhedra may be the control mesh of a surface spline."""
@@ -86,20 +82,16 @@ def surface(
         control = moved_mesh(mesh_of(body, "smooth"), vertices, "vertices")
         spline = spline_of(control.topology, ratios_of(control.topology, ratio, creases))
         chosen = "layout" if smooth == "layout" else texture
-        outline = 0.5 if edges == "plain" else 0.0
-        figure = smoothed(control, spline, chosen, picture, outline, merged)
+        figure = smoothed(control, spline, chosen, picture, merged)
         caption = f"{count_words(spline, merged)}; blend ratio {ratio:.2g}"
-        figure = replace(figure, caption=(caption, *figure.caption))
-        if edges == "plain":
-            return figure
-        return with_joins(figure, shown(spline, nets_of(spline, control.vertices), None, merged)[0])
+        return replace(figure, caption=(caption, *figure.caption))
     nets = edited(body, moved)
     points = sampled(nets)
     spatial = bool(np.any(nets[..., 2] != 0.0))
     texture_net = nets if texture == "r" else identity(body)
     layers: tuple[Layer, ...] = (
         Patches(nets, Texture(texture_net, picture), lit=spatial),
-        *(outlines(nets) if edges == "plain" else ()),
+        *outlines(nets),
         ControlNet(nets, palette.CONTROL_NET),
         handles(nets),
     )
@@ -107,18 +99,7 @@ def surface(
         "identity": "attached by the identity of each patch, (s, t) = (2v − 1, 1 − 2u)",
         "r": "attached by the surface itself, (s, t) = (x, y)",
     }
-    figure = Figure((Space("physical", points, layers, spatial),), (attached[texture],))
-    return with_joins(figure, nets) if edges == "joins" else figure
-
-
-def with_joins(figure: Figure, nets: Array) -> Figure:
-    """The figure with the edges of its patches in the colours of their joins, and a legend."""
-    lines, words = join_lines(nets)
-    (space,) = figure.spaces
-    strip = legend("joins", "", words)
-    return replace(
-        figure, spaces=(strip, replace(space, layers=(*space.layers, *lines), below=True))
-    )
+    return Figure((Space("physical", points, layers, spatial),), (attached[texture],))
 
 
 def outlines(nets: Array) -> tuple[IsoLines, ...]:
@@ -134,12 +115,11 @@ def smoothed(
     spline: SurfaceSpline,
     texture: str,
     picture: Picture,
-    outline: float,
     merged: bool,
 ) -> Figure:
     """The surface spline over the file's polyhedron, with its mesh around it."""
     layers = (
-        *patch_layers(spline, control.vertices, texture, picture, outline, merged),
+        *patch_layers(spline, control.vertices, texture, picture, merged=merged),
         edges_of(control, width=0.4),
         edge_handles(control, spline.ratios),
         vertex_handles(control, "vertices"),
