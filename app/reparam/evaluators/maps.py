@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
-from typing import Literal
+from functools import cache, cached_property, lru_cache
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -60,15 +60,15 @@ TARGETS: dict[int, Target] = {
 }
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)  # frozen would double the time of making one, and they come in thousands
 class Map:
     """A map as it was defined: control points (uorder, vorder, components) and its domain.
 
-    A curve's has vorder 1. The numbers are those of float32, the domain may run backwards.
+    A curve's has vorder 1. The domain may run backwards.
     """
 
     target: Target
-    points: Array
+    points: NDArray[np.float32]
     domain: Quad  # u1, u2, v1, v2
 
     @property
@@ -88,7 +88,7 @@ class Map:
         return homogeneous(self, self.points)
 
 
-def homogeneous(shape: Map, points: Array) -> Array:
+def homogeneous(shape: Map, points: NDArray[np.float32]) -> Array:
     """Nets (..., uorder, vorder, 4) over the domain `rising`, of maps shaped like that one.
 
     A domain that runs backwards is the same surface with its control points reversed; so
@@ -105,7 +105,7 @@ def homogeneous(shape: Map, points: Array) -> Array:
 
 def initial_map(target: Target) -> Map:
     """What glGetMap answers before glMap: order 1, constant, over [0,1]."""
-    values = np.array(FILL[target.attribute][: target.components])
+    values = np.array(FILL[target.attribute][: target.components], np.float32)
     return Map(target, values.reshape(1, 1, -1), (0.0, 1.0, 0.0, 1.0))
 
 
@@ -118,7 +118,7 @@ def find_target(call: str, target: int, dimension: int | None = None) -> Target:
     return found
 
 
-def array_points(call: str, target: Target, points: ArrayLike) -> Array:
+def array_points(call: str, target: Target, points: ArrayLike) -> NDArray[np.float32]:
     """Control points (uorder, vorder, components) from a plain array (order, k) or (m, n, k)."""
     values = _numbers(call, points)
     if values.ndim != target.dimension + 1 or values.shape[-1] != target.components:
@@ -127,8 +127,8 @@ def array_points(call: str, target: Target, points: ArrayLike) -> Array:
             f"{call}: points: expected an array ({orders}{target.components}) for {target.name}, "
             f"found shape {values.shape}; a flat buffer needs its strides and orders"
         )
-    for name, order in zip(_names("order", target), values.shape, strict=False):
-        _check_order(call, name, order)
+    if not (min(values.shape) > 0 and max(values.shape) <= MAX_ORDER):
+        _check_orders(call, target, values.shape[:-1])
     return _usable(call, values if target.dimension == 2 else values[:, None, :])
 
 
@@ -139,7 +139,7 @@ def buffer_points(
     orders: Sequence[int],
     points: ArrayLike,
     offset: int,
-) -> Array:
+) -> NDArray[np.float32]:
     """Control points (uorder, vorder, components) out of a user's buffer, as C has it.
 
     Strides and offset count numbers, not bytes. Raises InvalidValue for a stride less than the
@@ -151,55 +151,62 @@ def buffer_points(
                 f"{call}: {name}: expected at least {target.components}, the numbers of a "
                 f"{target.name}, found {stride}"
             )
-    for name, order in zip(_names("order", target), orders, strict=True):
-        _check_order(call, name, order)
+    _check_orders(call, target, orders)
     values = _numbers(call, points).ravel()
     first = integer(call, "offset", offset)
     if first < 0:
         raise InvalidValue(f"{call}: offset: expected at least 0, found {offset}")
-    places = _places(target.components, tuple(strides), tuple(orders)) + first
-    needed = int(places.flat[-1]) + 1
-    if needed > len(values):
+    places, needed = _places(target.components, tuple(strides), tuple(orders))
+    if first + needed > len(values):
         raise InvalidValue(
-            f"{call}: points: expected at least {needed} numbers, found {len(values)}"
+            f"{call}: points: expected at least {first + needed} numbers, found {len(values)}"
         )
-    found = values[places]
+    found = values[first:][places] if first else values[places]
     return _usable(call, found if target.dimension == 2 else found[:, None, :])
 
 
 @lru_cache(maxsize=64)
-def _places(components: int, strides: tuple[int, ...], orders: tuple[int, ...]) -> NDArray[np.intp]:
-    """Where the numbers of a net lie in a buffer: shape (*orders, components)."""
+def _places(
+    components: int, strides: tuple[int, ...], orders: tuple[int, ...]
+) -> tuple[NDArray[np.intp], int]:
+    """Where the numbers of a net lie in a buffer, (*orders, components), and how long that is."""
     places = np.arange(components)
     for stride, order in zip(reversed(strides), reversed(orders), strict=True):
         places = stride * np.arange(order).reshape(-1, *[1] * places.ndim) + places
-    return places
+    return places, int(places.flat[-1]) + 1
 
 
-def _names(word: str, target: Target) -> list[str]:
-    return [word] if target.dimension == 1 else [f"u{word}", f"v{word}"]
+@cache
+def _names(word: str, target: Target) -> tuple[str, ...]:
+    return (word,) if target.dimension == 1 else (f"u{word}", f"v{word}")
 
 
-def _check_order(call: str, name: str, order: int) -> None:
-    if not 1 <= integer(call, name, order) <= MAX_ORDER:
-        raise InvalidValue(
-            f"{call}: {name}: expected an order from 1 to {MAX_ORDER}, found {order}"
-        )
+def _check_orders(call: str, target: Target, orders: Sequence[int]) -> None:
+    for name, order in zip(_names("order", target), orders, strict=True):
+        if not 1 <= integer(call, name, order) <= MAX_ORDER:
+            raise InvalidValue(
+                f"{call}: {name}: expected an order from 1 to {MAX_ORDER}, found {order}"
+            )
 
 
-def _numbers(call: str, points: ArrayLike) -> Array:
+def _numbers(call: str, points: ArrayLike) -> NDArray[np.floating[Any]]:
+    """An array of float32 or float64."""
+    if isinstance(points, np.ndarray) and points.dtype.char in "fd":
+        return points
     try:
         return np.asarray(points, dtype=np.float64)
     except (TypeError, ValueError) as error:
         raise InvalidValue(f"{call}: points: expected an array of numbers, found {error}") from None
 
 
-def _usable(call: str, points: Array) -> Array:
+def _usable(call: str, points: NDArray[np.floating[Any]]) -> NDArray[np.float32]:
     """A copy, rounded to float32. Refused: NaN, infinities, and what would overflow on the way."""
-    if not np.abs(points).max(initial=0.0) <= LARGEST:
+    flat = points.ravel()
+    # No number is larger than the root of this, and it is quickly found.
+    if not flat.dot(flat) <= LARGEST**2 and not np.abs(points).max(initial=0.0) <= LARGEST:
         index = tuple(int(i) for i in np.argwhere(~(np.abs(points) <= LARGEST))[0])
         raise InvalidValue(
             f"{call}: points: expected finite numbers up to {LARGEST:g}, "
             f"found {points[index]:g} at {list(index)}"
         )
-    return points.astype(np.float32).astype(np.float64)
+    return points.astype(np.float32)

@@ -79,7 +79,7 @@ class Recorder(State):
                 f"glEvalMesh{dimension}: expected at most {MOST_POINTS} points, "
                 f"found {grid.shape[0] * grid.shape[1]}"
             )
-        if "vertex" in maps.by_attribute and min(grid.shape) > 0:
+        if maps.makes_vertices and min(grid.shape) > 0:
             self._items.append(Mesh(maps, grid, mode, self._current))
 
     # glBegin, glEvalCoord, glEnd -------------------------------------------------------------
@@ -142,7 +142,7 @@ class Recorder(State):
 
     def _evaluate(self, call: str, dimension: int, u: float, v: float) -> None:
         begun = self._inside(call)
-        if "vertex" in self._fed(dimension).by_attribute:
+        if self._fed(dimension).makes_vertices:
             self._add(begun, dimension, (u, v), FILL["vertex"])
 
     def _add(

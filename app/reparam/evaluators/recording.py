@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import groupby
+from operator import attrgetter
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,7 +35,7 @@ class Current:
         return found
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)  # as Map and Mesh: thousands are made
 class Maps:
     """The maps of one dimension that were enabled, at most one for each attribute."""
 
@@ -45,13 +47,18 @@ class Maps:
         """The maps by what they feed."""
         return {feed.target.attribute: feed for feed in self.feeds}
 
-    @cached_property
+    @property
+    def makes_vertices(self) -> bool:
+        """Whether there is a vertex map. It stands first."""
+        return bool(self.feeds) and self.feeds[0].target.attribute == "vertex"
+
+    @property
     def shape(self) -> object:
         """Meshes whose maps have equal shapes can be evaluated in one go."""
-        return self.auto_normal, tuple(feed.shape for feed in self.feeds)
+        return self.auto_normal, *[feed.shape for feed in self.feeds]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class Mesh:
     """One glEvalMesh."""
 
@@ -60,7 +67,7 @@ class Mesh:
     mode: int  # GL_POINT, GL_LINE or GL_FILL
     current: Current
 
-    @cached_property
+    @property
     def shape(self) -> object:
         """Meshes of equal shape, recorded one after another, are one draw."""
         return self.maps.shape, self.grid, self.mode, self.current
@@ -74,6 +81,8 @@ class Collection:
     glEvalPoint) at `parameters` (k, 2), with the maps of that dimension. `given` has the position
     that glVertex gave, and the current values of each vertex: (k, 4) each.
     """
+
+    shape: ClassVar[None] = None  # each is a draw of its own
 
     mode: int  # GL_POINTS ... GL_POLYGON
     maps: dict[int, Maps]
@@ -147,7 +156,7 @@ class Recording:
         return tuple(self._grouped())
 
     def _grouped(self) -> Iterator[Batch | Collection]:
-        for shape, items in groupby(self.items, lambda item: getattr(item, "shape", None)):
+        for shape, items in groupby(self.items, attrgetter("shape")):
             if shape is None:
                 yield from items  # type: ignore[misc]
             else:

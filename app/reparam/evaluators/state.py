@@ -134,7 +134,7 @@ class State:
         found = find_target(call, target)
         asked = self._maps[target]
         if query == k.GL_COEFF:
-            return asked.points.flatten()  # a copy: the map is OpenGL's
+            return asked.points.ravel().astype(np.float64)  # a copy: the map is OpenGL's
         if query == k.GL_ORDER:
             return np.array(asked.points.shape[: found.dimension], np.float64)
         if query == k.GL_DOMAIN:
@@ -172,7 +172,7 @@ class State:
             if dimension not in self._winners:
                 self._winners[dimension] = self._win(dimension)
             auto = dimension == 2 and k.GL_AUTO_NORMAL in self._enabled
-            feeds = tuple(self._maps[number] for number in self._winners[dimension])
+            feeds = tuple([self._maps[number] for number in self._winners[dimension]])
             self._feeding[dimension] = Maps(feeds, auto)
         return self._feeding[dimension]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import weakref
+from collections import deque
 from collections.abc import Hashable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 Single = NDArray[np.float32]
 Stream = tuple[moderngl.Buffer, str]  # values from vertex to vertex, and their format
 
+RECENT, RECENT_BYTES = 4, 1 << 20  # indices held for a recording that is made anew in each frame
 MODES = {1: moderngl.POINTS, 2: moderngl.LINES, 3: moderngl.TRIANGLES}
 
 
@@ -80,6 +82,7 @@ class Drawables:
         self._kept = weakref.WeakKeyDictionary()
         self._indices: weakref.WeakValueDictionary[Hashable, Shared]
         self._indices = weakref.WeakValueDictionary()
+        self._recent: deque[Shared] = deque(maxlen=RECENT)
         self._dead: list[dict[bool, list[Drawable]]] = []  # of recordings that are no more
         self._lost: list[moderngl.Buffer] = []  # indices that nobody uses any more
 
@@ -163,6 +166,8 @@ class Drawables:
             )
             found = self._shared(first + mesh_indices(grid.shape, batch.first.mode, grid.turned))
             self._indices[key] = found
+        if found.buffer.size <= RECENT_BYTES and found not in self._recent:
+            self._recent.append(found)
         return found
 
     def _shared(self, indices: NDArray[np.int32]) -> Shared:
