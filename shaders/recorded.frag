@@ -1,6 +1,7 @@
 // OpenGL's lighting (2.1 specification, 2.14.1: one light, no attenuation, a viewer at infinity),
 // for each fragment and on both sides, and GL_MODULATE with a texture.  As in recorded.vert, and
 //
+//   ONE_SIDED       what is seen from behind is lit as from the front
 //   SHINY           there is a highlight
 //   COLOR_MATERIAL  the colour is the ambient and the diffuse material
 
@@ -34,7 +35,11 @@ out vec4 fragment;
 
 #ifdef LIT
 vec4 lit_color() {
+#ifdef ONE_SIDED
+    vec3 normal = normalize(eye_normal);
+#else
     vec3 normal = normalize(gl_FrontFacing ? eye_normal : -eye_normal);
+#endif
 #ifdef POSITIONAL
     vec3 to_light = normalize(light_position.xyz * eye_position.w -
                               eye_position.xyz * light_position.w);

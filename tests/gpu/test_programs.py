@@ -34,7 +34,7 @@ RECORDED = [
     [],
     ["COLORED"],
     ["LIT", "POSITIONAL", "COLOR_MATERIAL"],
-    ["LIT", "SHINY", "TEXTURED"],
+    ["LIT", "ONE_SIDED", "SHINY", "TEXTURED"],
     ["LIT", "SHINY", "POSITIONAL", "COLORED", "TEXTURED", "PROJECTIVE"],
     ["TEXTURED"],
     ["TEXTURED", "PROJECTIVE"],

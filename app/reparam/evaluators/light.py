@@ -10,7 +10,7 @@ RGB = tuple[float, float, float]
 @dataclass(frozen=True)
 class Light:
     """GL_LIGHT0 and glMaterial, by OpenGL's formula (2.1 specification, section 2.14.1), for each
-    fragment and on both sides.
+    fragment; and on both sides, unless GL_LIGHT_MODEL_TWO_SIDE is to be off, as OpenGL has it.
 
     `position` is in eye coordinates, a direction where its w is 0. With `color_material` the
     vertex colours stand for `material_ambient` and `material_diffuse`.
@@ -26,3 +26,4 @@ class Light:
     material_specular: RGB = (0.0, 0.0, 0.0)
     shininess: float = 0.0
     color_material: bool = False
+    two_sided: bool = True

@@ -206,6 +206,7 @@ def look_of(drawable: Drawable, light: Light | None, textured: bool) -> dict[str
         "COLORED": "color" in drawable.streams,
         "LIT": light is not None,
         "COLOR_MATERIAL": light is not None and light.color_material,
+        "ONE_SIDED": light is not None and not light.two_sided,
         "POSITIONAL": light is not None and light.position[3] != 0.0,
         "SHINY": light is not None and any(np.multiply(light.specular, light.material_specular)),
         "TEXTURED": textured,

@@ -35,14 +35,16 @@ OUTLINE = np.array([
     (2.0, 6.0, 2.0**0.5), (2.0, 5.0, 1.0), (3.0, 4.0, 1.0), (4.0, 2.0, 1.0),
 ])  # fmt: skip
 TIP, NOTCH = 1.6, 4.6
-# The program's two lights from the left and the right are one here, from between them.
+# The program turns a second light on and gives it a place, but no colour: OpenGL's lights are black
+# but for the first. And it does not ask for two sides, so what faces away from that one is grey.
 LIGHT = Light(
-    position=(0.0, 0.1, 1.0, 0.0),
+    position=(1.0, 0.1, 1.0, 0.0),
     model_ambient=(0.3, 0.3, 0.3),
-    material_ambient=(1.0, 0.3, 1.0),
+    material_ambient=(1.0, 1.0, 1.0),
     material_diffuse=(1.0, 0.2, 1.0),
     material_specular=(1.0, 1.0, 1.0),
     shininess=50.0,
+    two_sided=False,
 )
 
 
