@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 
 import moderngl
 import numpy as np
@@ -16,26 +17,49 @@ from reparam.snapshot import Studio
 FROM_ABOVE = Camera(np.eye(3), np.zeros(3), 1.05, 1.05, 4.0)
 """Shows [-1,1]^2, and a little more."""
 
-Frame = Callable[[Callable[[], object]], Callable[[], None]]
+Draw = Callable[[], object]
+
+OTHER = 24  # grey levels: a pixel of another picture
+FEW = 0.02  # share of pixels at edges, where bits of another evaluation may tell
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Makes of a drawing a whole frame: clear, draw, finish."""
+
+    studio: Studio
+    target: Target
+
+    def __call__(self, draw: Draw) -> Callable[[], None]:
+        """A function that draws the frame."""
+
+        def run() -> None:
+            self.target.framebuffer.use()
+            self.target.framebuffer.clear(1.0, 1.0, 1.0, depth=1.0)
+            self.studio.ctx.enable(moderngl.DEPTH_TEST)
+            draw()
+            self.studio.ctx.finish()
+
+        return run
+
+    def check_alike(self, ours: Draw, other: Draw) -> None:
+        """Times of different pictures say nothing. Raises AssertionError if these are two."""
+        pictures = []
+        for draw in (ours, other):
+            self(draw)()
+            self.target.resolve()
+            pictures.append(self.target.pixels().astype(int))
+        assert np.ptp(pictures[0]) > OTHER, "nothing is drawn"
+        different = (np.abs(pictures[0] - pictures[1]).max(-1) > OTHER).mean()
+        assert different < FEW, f"expected one picture, found {different:.1%} of the pixels other"
 
 
 @contextmanager
 def frames(studio: Studio, size: tuple[int, int], samples: int = 0) -> Iterator[Frame]:
-    """A function that makes of a drawing a whole frame: clear, draw, finish."""
+    """What makes frames of that size."""
     target = Target(studio.ctx, size, samples, studio.painter.capabilities)
-
-    def frame(draw: Callable[[], object]) -> Callable[[], None]:
-        def run() -> None:
-            target.framebuffer.use()
-            target.framebuffer.clear(1.0, 1.0, 1.0, depth=1.0)
-            studio.ctx.enable(moderngl.DEPTH_TEST)
-            draw()
-            studio.ctx.finish()
-
-        return run
-
     try:
-        yield frame
+        yield Frame(studio, target)
     finally:
         studio.ctx.disable(moderngl.DEPTH_TEST)
         studio.ctx.extra.use()

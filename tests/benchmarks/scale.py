@@ -1,55 +1,84 @@
 """How a frame grows with the number of patches: the time of one patch must stay flat or fall.
 
-`ratio` is the time of a patch over that of a patch in the frame of the fewest; `exponent` in the
-settings of the last row is the slope of log time over log patches.
+Each row is the time of a patch over that of a patch in the frame of a tenth as many, the two frames
+in turn; `exponent` is that step's own slope of log time over log patches (below 1: the cost of a
+patch falls), `overall` the slope over all rows so far. The bytes of a patch are those of its net in
+the texture and of its evaluated vertices; resident ones what the process has grown by in the first
+frame, where graphics memory is the process's own.
 """
 
 from __future__ import annotations
 
-import statistics
-import time
+import os
 from collections.abc import Callable
+from math import log10
+from pathlib import Path
 
 import numpy as np
-from frames import FROM_ABOVE, frames, wavy_patches
+from frames import FROM_ABOVE, Frame, frames, wavy_patches
 
-from reparam.bench import Row, Rows
+from reparam.bench import Row, Rows, interleave
 from reparam.scenes.layers import Patches
 from reparam.snapshot import Studio
 
-COUNTS = (100, 1_000, 10_000, 100_000)
+COUNTS = (100, 1_000, 10_000, 100_000, 1_000_000)
+MOST_PAIRS = {1_000_000: 3}
 LEVEL = 2
 SIZE = (1024, 1024)
 NET_BYTES = 9 * 16  # a biquadratic net as RGBA32F
+VERTEX_BYTES = {"vertex": (LEVEL + 1) ** 2 * 16, "tessellation": 0}
+NOISE = 1.1
+STATM = Path("/proc/self/statm")
 
 
 def rows(pairs: int) -> Rows:
-    """Biquadratic patches that tile the screen."""
+    """Biquadratic patches that tile the screen, ten times as many in each row."""
     studio = Studio()
-    evaluator = studio.painter.capabilities.evaluator(None)
+    evaluators = ["vertex", "tessellation"][: 1 + studio.painter.capabilities.tessellation]
+    for evaluator in evaluators:
+        with frames(studio, SIZE) as frame:
+            yield from _grow(studio, evaluator, frame, pairs)
+        studio.painter.surfaces.forget()
+
+
+def _grow(studio: Studio, evaluator: str, frame: Frame, pairs: int) -> Rows:
     found: list[float] = []
-    with frames(studio, SIZE) as frame:
-        for count in COUNTS:
-            layer = Patches(wavy_patches(count, 2))
 
-            def draw(layer: Patches = layer) -> None:
-                studio.painter.surfaces.draw(layer, FROM_ABOVE, evaluator, LEVEL)
+    def drawing(count: int) -> Callable[[], None]:
+        layer = Patches(wavy_patches(count, 2))
 
-            found.append(median_seconds(frame(draw), 3, min(pairs, 11)))
-            settings = {"evaluator": evaluator, "level": LEVEL, "net_bytes_a_patch": NET_BYTES}
-            if len(found) > 1:
-                slope = np.polyfit(np.log(COUNTS[: len(found)]), np.log(found), 1)[0]
-                settings["exponent"] = round(float(slope), 3)
-            ratio = found[-1] / count / (found[0] / COUNTS[0])
-            yield Row(f"scale/{count}", ratio, 1e3 * found[-1], 1e3 * found[0], settings, 1.0)
-            studio.painter.surfaces.forget()
+        def draw() -> None:
+            studio.painter.surfaces.draw(layer, FROM_ABOVE, evaluator, LEVEL)
+            studio.painter.surfaces.sweep()
+            studio.painter.evaluation.sweep()
+
+        return frame(draw)
+
+    fewer = drawing(COUNTS[0])
+    for count in COUNTS[1:]:
+        more = drawing(count)
+        before = resident()
+        more()
+        grown = resident() - before
+        times = interleave(more, fewer, min(pairs, MOST_PAIRS.get(count, 11)), 1)
+        row = times.row(f"scale/{evaluator}/{count}", evaluator=evaluator, level=LEVEL)
+        assert row.ours_ms is not None
+        assert row.other_ms is not None
+        found = [*(found or [row.other_ms]), row.ours_ms]
+        overall = np.polyfit(np.log10(COUNTS[: len(found)]), np.log10(found), 1)[0]
+        settings = row.settings | {
+            "exponent": round(log10(row.ratio), 3),
+            "overall": round(float(overall), 3),
+            "bytes_a_patch": NET_BYTES + VERTEX_BYTES[evaluator],
+        }
+        if studio.painter.capabilities.software and count >= 100_000:
+            settings["resident_bytes_a_patch"] = round(grown / count)
+        yield Row(row.name, row.ratio / 10, row.ours_ms, row.other_ms, settings, NOISE)
+        fewer = more
 
 
-def median_seconds(frame: Callable[[], None], warm_up: int, times: int) -> float:
-    """Of a frame, after some that do not count."""
-    seconds = []
-    for _ in range(warm_up + times):
-        began = time.perf_counter()
-        frame()
-        seconds.append(time.perf_counter() - began)
-    return statistics.median(seconds[warm_up:])
+def resident() -> int:
+    """Memory of this process in bytes; 0 where it is not told."""
+    if not STATM.exists():
+        return 0
+    return int(STATM.read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")

@@ -39,9 +39,10 @@ class StaticMesh:
         columns = [points, normals, maps] if layer.lit else [points, maps]
         layout = "4f 3f 4f" if layer.lit else "4f 4f"
         names = ("point", "normal", "map") if layer.lit else ("point", "map")
-        defines = {"TEXTURED": 1} | ({"LIT": 1} if layer.lit else {})
         vertices = np.concatenate(columns, -1).astype(np.float32)
         self._layer, self._level, self._surfaces = layer, level, painter.surfaces
+        self._look = Look(layer.color)
+        defines = painter.surfaces.defines(layer, self._look)
         self._program = painter.programs.get("mesh.vert", "patch.frag", defines=defines)
         indices = triangle_indices(level, len(layer.net))
         self._mesh = ctx.vertex_array(
@@ -52,7 +53,7 @@ class StaticMesh:
 
     def draw(self, camera: Camera) -> None:
         """As `Surfaces.draw` does, but for the evaluation."""
-        self._surfaces.set_common(self._program, self._layer, camera, Look(self._layer.color))
+        self._surfaces.set_common(self._program, self._layer, camera, self._look)
         self._program.set(level=self._level)
         self._program.ready()
         self._mesh.render()
@@ -81,6 +82,7 @@ def _measure(studio: Studio, layer: Patches, level: int, pairs: int) -> Rows:
         studio.painter.evaluation.sweep()
 
     with frames(studio, SIZE) as frame:
+        frame.check_alike(edit, lambda: static.draw(FROM_ABOVE))
         reference = frame(lambda: static.draw(FROM_ABOVE))
         for evaluator in ("vertex", "tessellation"):
             name = f"static_mesh/{evaluator}/{case}"

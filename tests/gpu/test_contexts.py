@@ -48,7 +48,9 @@ def need_mesa(studio: Studio) -> None:
 
 def run(context: str, *arguments: str) -> subprocess.CompletedProcess[str]:
     path = os.pathsep.join([str(HERE), *filter(None, sys.path)])
-    environment = os.environ | CONTEXTS[context] | {"PYTHONPATH": path}
+    ours = {name for settings in CONTEXTS.values() for name in settings}
+    outer = {name: value for name, value in os.environ.items() if name not in ours}
+    environment = outer | CONTEXTS[context] | {"PYTHONPATH": path}
     command = [sys.executable, *arguments]
     return subprocess.run(command, env=environment, capture_output=True, text=True)
 

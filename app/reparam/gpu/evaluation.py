@@ -66,11 +66,13 @@ class Evaluation:
 
     def texture(self, net: Array) -> moderngl.Texture:
         """The net on the GPU; uploaded once for each array, and after an edit what it changed."""
+
+        def renew(texture: moderngl.Texture, changed: list[range]) -> None:
+            rewrite(texture, net, changed)
+
+        several = patch_count(net) > 1
         return self._textures.get(
-            net,
-            None,
-            lambda: net_texture(self._ctx, net),
-            lambda texture, changed: rewrite(texture, net, changed),
+            net, net.shape, lambda: net_texture(self._ctx, net), renew if several else None
         )
 
     def run(

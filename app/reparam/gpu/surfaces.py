@@ -127,7 +127,7 @@ class Surfaces:
                 evaluator,
                 self.adaptive.plan(layer, camera, evaluator, fine),
                 "patch.frag",
-                self._defines(layer, look),
+                self.defines(layer, look),
                 lambda program: self.set_common(program, layer, camera, look),
             )
         elif evaluator == "vertex":
@@ -145,7 +145,8 @@ class Surfaces:
         """Drop what older shaders evaluated."""
         self._batches.forget()
 
-    def _defines(self, layer: Patches, look: Look) -> dict[str, int | str]:
+    def defines(self, layer: Patches, look: Look) -> dict[str, int | str]:
+        """What the shaders of a layer are compiled with."""
         defines: dict[str, int | str] = {}
         if look.shading in (*SHAPED, *DRAWN):
             defines |= {"LOCATED": 1, look.shading.upper(): 1}
@@ -221,7 +222,7 @@ class Surfaces:
     # The vertex evaluator -------------------------------------------------------------------
 
     def _draw_meshes(self, layer: Patches, camera: Camera, level: int, look: Look) -> None:
-        defines = self._defines(layer, look)
+        defines = self.defines(layer, look)
         texture_net = layer.texture.net if layer.texture and "TEXTURED" in defines else None
         count = patch_count(layer.net)
         positions = self._batches.evaluated(layer.net, level, count, layer.lit)
@@ -264,7 +265,7 @@ class Surfaces:
     # Tessellation ---------------------------------------------------------------------------
 
     def _draw_tessellated(self, layer: Patches, camera: Camera, level: int, look: Look) -> None:
-        defines = self._defines(layer, look)
+        defines = self.defines(layer, look)
         nets = {"POSITION_": orders(layer.net)}
         if "TEXTURED" in defines:
             assert layer.texture is not None
