@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field
 from importlib import import_module
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 from .assets import root
@@ -122,21 +123,28 @@ def names() -> list[str]:
     return sorted(file.stem for file in files if "\ndef rows(" in file.read_text("utf-8"))
 
 
-def run(chosen: Sequence[str], pairs: int) -> Rows:
-    """The rows of the chosen benchmarks, or of all, as they come.
-
-    Raises UsageError for an unknown name.
-    """
-    known = names()
+def known(chosen: Sequence[str]) -> list[str]:
+    """The chosen benchmarks, or all. Raises UsageError for an unknown name."""
+    there = names()
     for name in chosen:
-        if name not in known:
-            raise UsageError(f"expected a benchmark ({', '.join(known)}), found {name!r}")
+        if name not in there:
+            raise UsageError(f"expected a benchmark ({', '.join(there)}), found {name!r}")
+    return list(chosen) or there
+
+
+def module(name: str) -> ModuleType:
+    """The module of a benchmark."""
     sys.path.insert(0, str(folder()))
     try:
-        for name in chosen or known:
-            yield from import_module(name).rows(pairs)
+        return import_module(name)
     finally:
         sys.path.remove(str(folder()))
+
+
+def run(name: str, pairs: int) -> Rows:
+    """The rows of a benchmark as they come."""
+    found: Rows = module(name).rows(pairs)
+    return found
 
 
 def line(row: Row | Skipped) -> str:
