@@ -1,6 +1,7 @@
 # make run        sets everything up and opens the viewer; without a screen: writes ./figures
 # make test       style, types, then the quick tests
 # make test-slow  the tests that take minutes
+# make contexts   the quick tests in OpenGL 4.1 (as macOS has it) and in 3.3, as Mesa plays them
 # make lint       style and types
 # make parity     our evaluators against what the real OpenGL and GLU computed; CASES=folder: others
 # make bench      our frames against others', as ratios in one run
@@ -22,7 +23,7 @@ endif
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: run test test-slow parity bench gallery lint format clean run-packages test-packages
+.PHONY: run test test-slow contexts parity bench gallery lint format clean run-packages test-packages
 
 run: run-packages $(VENV)/run
 	@$(BIN)/reparam
@@ -32,6 +33,11 @@ test: test-packages lint
 
 test-slow: test-packages $(VENV)/test
 	$(BIN)/pytest -m slow
+
+contexts: test-packages $(VENV)/test
+	MESA_GL_VERSION_OVERRIDE=4.1 MESA_GLSL_VERSION_OVERRIDE=410 \
+		$(BIN)/pytest -n 2 --dist worksteal
+	GALLIUM_DRIVER=softpipe LIBGL_ALWAYS_SOFTWARE=1 $(BIN)/pytest -n 2 --dist worksteal
 
 lint: $(VENV)/test
 	$(BIN)/ruff check

@@ -1,10 +1,14 @@
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 import pytest
 
+from reparam.errors import GraphicsError
 from reparam.snapshot import Studio
+
+NO_TESSELLATION = re.compile(r"expected OpenGL 4\.0|GLSL 4\.00 is not supported")
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -31,3 +35,19 @@ def no_opengl_error(request: pytest.FixtureRequest) -> Iterator[None]:
     yield
     if "one_studio" in request.fixturenames:
         assert request.getfixturevalue("one_studio").ctx.error == "GL_NO_ERROR"
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_call(item: pytest.Item) -> Iterator[None]:
+    """A context of OpenGL 3.3 has no tessellation: tests that ask for it, by a parameter of that
+    name or as their mark says, are skipped there, and only where that is what stopped them."""
+    try:
+        return (yield)
+    except GraphicsError as error:
+        studio = getattr(item, "funcargs", {}).get("one_studio")
+        has = studio is None or studio.painter.capabilities.tessellation
+        asked = "[tessellation" in item.name or "tessellation]" in item.name
+        asked = asked or "-tessellation-" in item.name or item.get_closest_marker("tessellation")
+        if has or not asked or not NO_TESSELLATION.search(str(error)):
+            raise
+        pytest.skip("tessellation needs OpenGL 4.0")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
 
 import pytest
@@ -11,14 +12,16 @@ from reparam import bench
 from reparam.bench import Pairs, Row, Skipped, interleave, line, names
 from reparam.cli import main
 
-FAKE = """
+FAKE = '''"""A fake."""
 from reparam.bench import Pairs, Skipped
+
+ACCOUNT = "Why it is slow."
 
 def rows(pairs):
     yield Pairs([0.002] * pairs, [0.001] * pairs).row("fake/slow", goal=1.5, size="1x1")
     yield Pairs([0.002] * pairs, [0.004] * pairs).row("fake/better", inverse=True, goal=1.5)
     yield Skipped("fake/absent", "nobody is there")
-"""
+'''
 
 
 @pytest.fixture
@@ -26,10 +29,20 @@ def fake(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "fake_benchmark.py").write_text(FAKE)
     (tmp_path / "helper.py").write_text("x = 1")
     monkeypatch.setattr(bench, "folder", lambda: tmp_path)
+    monkeypatch.delitem(sys.modules, "fake_benchmark", raising=False)
 
 
 def test_the_benchmarks_are_found() -> None:
-    assert {"cold_start", "edited", "eval_mesh", "scale", "static_mesh"} <= set(names())
+    assert {
+        "cold_start",
+        "edit",
+        "edited",
+        "start_up",
+        "one_frame",
+        "eval_mesh",
+        "scale",
+        "static_mesh",
+    } <= set(names())
     assert "frames" not in names()
 
 
@@ -89,3 +102,25 @@ def test_a_row_that_is_skipped_says_why() -> None:
         "such",
         "library",
     ]
+
+
+@pytest.mark.usefixtures("fake")
+def test_a_document_of_tables(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Run benchmarks are put in, tables of others stay, and their machine is named."""
+    document = tmp_path / "BENCHMARKS.md"
+    document.write_text("# Old\n\n## another\n\nkept\n\n## fake_benchmark\n\nold\n", "utf-8")
+    assert main(["bench", "--pairs", "2", "--into", str(document)]) == 0
+    capsys.readouterr()
+    text = document.read_text("utf-8")
+    assert text.startswith("# Benchmarks\n")
+    assert text.index("## another\n\nkept") < text.index("## fake_benchmark")
+    assert "old" not in text.partition("## fake_benchmark")[2]
+    assert "| `fake/slow` | 2 | ≤ 1.5 **missed** | 2 | 1 | pairs 2, size 1x1 |" in text
+    assert "| `fake/better` | 2 | ≥ 1.5 | 2 | 4 | pairs 2 |" in text
+    assert "* fake/absent was skipped: nobody is there" in text
+    assert "A fake.\n" in text
+    assert "Why it is slow." in text
+    assert "cores" in text
+    assert "Python 3." in text
+    assert main(["bench", "--pairs", "2", "--into", str(tmp_path)]) == 1
+    assert len(capsys.readouterr().err.splitlines()) == 1

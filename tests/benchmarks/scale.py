@@ -31,6 +31,13 @@ NOISE = 1.1
 STATM = Path("/proc/self/statm")
 
 
+ACCOUNT = """
+The cost of a patch falls up to a million: a frame has fixed costs, and triangles that shrink
+towards a pixel have fewer fragments. Resident memory is more than the patch's bytes since the
+driver bins the triangles of a frame before it fills them.
+"""
+
+
 def rows(pairs: int) -> Rows:
     """Biquadratic patches that tile the screen, ten times as many in each row."""
     studio = Studio()

@@ -96,6 +96,7 @@ def test_one_map_for_all_patches(draw: Draw, evaluator: str) -> None:
     assert (shared != draw(textured(nets), evaluator, 4)).any(-1).mean() > 0.1
 
 
+@pytest.mark.tessellation
 def test_the_evaluators_draw_the_same(draw: Draw) -> None:
     """But for the diagonals of the cells, which tessellation turns in three of four quarters."""
     layer = textured(tiled(3))
