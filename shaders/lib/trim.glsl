@@ -12,116 +12,99 @@
 //
 // (W. Schollmeyer and B. Froehlich, Direct trimming of NURBS surfaces on the GPU, 2009, with
 // graphs in place of their bisection.)
+//
+// Software rasterisers execute an `if` for every fragment, and a loop at least once: so there is
+// one short loop, and it does everything for a piece, whether near or not.
+//
+//   TRIM_DIVIDED   there are cells that are grids again
 
 #include "net.glsl"
 
-uniform isampler2D trim_nodes;   // first piece, steep + 65536 flat ones, winding number, first cell
-uniform sampler2D trim_pieces;   // three texels a piece: (u0, v0, u1, v1), b0 .. b3, b4 .. b7
-uniform sampler2D trim_shares;   // of the cells of the first grid, mip-mapped
-uniform int trim_side;           // cells along a side of the first grid
+uniform isampler2D trim_nodes;   // first piece + 2^24 winding number; how many pieces are steep
+                                 // + 2^10 closing + 2^20 flat, or -1 where there are too many
+uniform sampler2D trim_pieces;   // two texels a piece: (x0, x1, y0, y1 - y0), b0 .. b3; then of
+                                 // grids that get coarser the shares of four cells, corner by corner
+uniform int trim_shares;         // where they begin; the finest has twice as many cells a side
+uniform int trim_coarsest;       // how often it is halved
+uniform int trim_side;           // cells along a side of the first grid of pieces
+#ifdef TRIM_DIVIDED
+uniform isampler2D trim_divisions;   // of each node the first of the cells that divide it, or 0
+#endif
 
-ivec4 trim_node(int index) {
-    return texelFetch(trim_nodes, ivec2(index % NET_WIDTH, index / NET_WIDTH), 0);
+ivec2 trim_place(int index) {
+    return ivec2(index & (NET_WIDTH - 1), index / NET_WIDTH);
 }
 
 // The node of the smallest cell around a point whose margin is as wide as `reach`, and its size.
-ivec4 find_leaf(vec2 uv, float reach, out float size) {
+ivec2 find_leaf(vec2 uv, float reach, out float size) {
     vec2 place = clamp(uv, 0.0, 1.0) * float(trim_side);
     ivec2 cell = min(ivec2(place), trim_side - 1);
-    ivec4 node = trim_node(cell.y * trim_side + cell.x);
+    int number = cell.y * trim_side + cell.x;
     size = 1.0 / float(trim_side);
-    while (node.w > 0 && reach * float(TRIM_DIVISION) <= TRIM_MARGIN * size) {
+#ifdef TRIM_DIVIDED
+    int first = texelFetch(trim_divisions, trim_place(number), 0).x;
+    while (first > 0 && reach * float(TRIM_DIVISION) <= TRIM_MARGIN * size) {
         place = (place - vec2(cell)) * float(TRIM_DIVISION);
         cell = min(ivec2(place), TRIM_DIVISION - 1);
-        node = trim_node(node.w + cell.y * TRIM_DIVISION + cell.x);
+        number = first + cell.y * TRIM_DIVISION + cell.x;
+        first = texelFetch(trim_divisions, trim_place(number), 0).x;
         size /= float(TRIM_DIVISION);
     }
-    return node;
+#endif
+    return texelFetch(trim_nodes, trim_place(number), 0).xy;
 }
 
-int piece_count(ivec4 node) {
-    return (node.y & 0xFFFF) + (node.y >> 16);
+// Where the kinds of a node's pieces end: steep, closing, and all.
+ivec3 kinds_of(ivec2 node) {
+    int first = node.x & 0xFFFFFF, steep = first + (node.y & 0x3FF);
+    int closing = steep + (node.y >> 10 & 0x3FF);
+    return ivec3(steep, closing, closing + (node.y >> 20));
 }
 
-vec4 trim_texel(int piece, int part) {
-    return control_point(trim_pieces, 3 * piece + part);
+struct Piece { vec4 ends, bump; };
+
+Piece trim_piece(int texel) {
+    return Piece(texelFetch(trim_pieces, trim_place(texel), 0),
+                 texelFetch(trim_pieces, trim_place(texel + 1), 0));
 }
 
-// The bump of a piece's graph: b0 .. b7.
-struct Bump { vec4 low, high; };
-
-Bump trim_bump(int piece) {
-    return Bump(trim_texel(piece, 1), trim_texel(piece, 2));
+// f, at tau.
+float height(Piece piece, float tau) {
+    vec4 b = piece.bump;
+    float swell = b.x + tau * (b.y + tau * (b.z + tau * b.w));
+    return piece.ends.z + tau * (piece.ends.w + (1.0 - tau) * swell);
 }
 
-// f(x) of a graph that runs from (x0, y0) to (x1, y1).
-float graph_value(vec4 ends, Bump bump, float x) {
-    float tau = (x - ends.x) / (ends.z - ends.x);
-    float high = bump.high.x + tau * (bump.high.y + tau * (bump.high.z + tau * bump.high.w));
-    float swell = bump.low.x + tau * (bump.low.y + tau * (bump.low.z + tau * (bump.low.w + tau * high)));
-    return ends.y + tau * (ends.w - ends.y) + tau * (1.0 - tau) * swell;
-}
-
-// By how much the winding number changes where the ray to the right from a point meets a piece.
-int ray_way(vec4 piece, vec2 uv) {
-    return (piece.y <= uv.y) == (piece.w <= uv.y) ? 0 : piece.w > piece.y ? 1 : -1;
-}
-
-// Whether the piece is on the right of a point at its height; `value`: of the graph there.
-bool on_the_right(vec4 piece, bool steep, float value, vec2 uv) {
-    bool rising = (piece.w > piece.y) == (piece.z > piece.x);
-    return steep ? value > uv.x : rising ? value <= uv.y : value > uv.y;
-}
-
-// Whether a point is in the bounding box of a piece, `reach` wider.
-bool is_near(vec4 piece, vec2 uv, vec2 reach) {
-    vec2 low = min(piece.xy, piece.zw) - reach, high = max(piece.xy, piece.zw) + reach;
-    return uv.x >= low.x && uv.y >= low.y && uv.x <= high.x && uv.y <= high.y;
-}
-
-// What pieces tell by their bounding boxes, 30 at a time: the change of the winding number by
-// those that a point is not near, and the set of the others, one bit each. (Software rasterisers
-// execute an `if` for every fragment, and a loop at least once: so this is one loop, and what
-// takes long is another, over few.)
-int scan_pieces(int first, int count, vec2 uv, vec2 reach, out int near) {
-    int turns = 0, bit = 1;
-    near = 0;
-    do {
-        vec4 piece = trim_texel(first, 0);
-        bool here = is_near(piece, uv, reach);
-        near |= here && count > 0 ? bit : 0;
-        turns += !here && count > 0 && uv.x < piece.x ? ray_way(piece, uv) : 0;
-        bit *= 2;
-        ++first;
-        --count;
-    } while (count > 0 && bit < 1 << 30);
-    return turns;
-}
-
-int lowest_bit(int set) {
-    return int(log2(float(set & -set)) + 0.5);
+// What a piece adds to the winding number of a point (x, y), by which it starts at r0 and ends at
+// r1, both along the axis that it is over, and `under` which the point lies or not.
+//
+// The ray to the right crosses a steep piece if it starts at a height between its ends and on the
+// left of it. That it crosses a flat one is the difference of two statements: that it runs lower
+// than the piece's right end, and that the point lies lower than the piece itself.
+int turns(bool steep, bool closing, Piece piece, float r0, float r1, float y, bool under) {
+    bool forward = r1 > r0;
+    bool lower = !closing && piece.ends.z + (forward ? piece.ends.w : 0.0) > y;
+    bool crossed = (r0 > 0.0) != (r1 > 0.0) && under;
+    int once = steep ? int(crossed) : int(lower) - int(under);
+    return forward ? once : -once;
 }
 
 // 1 where the surface stays, 0 where not.
 int winding_number(vec2 uv) {
     float size;
-    ivec4 node = find_leaf(uv, 0.0, size);
-    int winding = node.z, steeps = node.y & 0xFFFF, count = piece_count(node), near;
-    int done = 0;
+    ivec2 node = find_leaf(uv, 0.0, size);
+    ivec3 kinds = kinds_of(node);
+    int winding = node.x >> 24, i = node.x & 0xFFFFFF;
     do {
-        winding += scan_pieces(node.x + done, count - done, uv, vec2(0.0), near);
-        do {
-            int i = done + lowest_bit(max(near, 1));
-            vec4 piece = trim_texel(node.x + i, 0);
-            Bump bump = trim_bump(node.x + i);
-            bool steep = i < steeps;
-            vec4 ends = steep ? piece.yxwz : piece;
-            float value = graph_value(ends, bump, steep ? uv.y : uv.x);
-            winding += near != 0 && on_the_right(piece, steep, value, uv) ? ray_way(piece, uv) : 0;
-            near &= near - 1;
-        } while (near != 0);
-        done += 30;
-    } while (done < count);
+        Piece piece = trim_piece(2 * i);
+        bool steep = i < kinds.x;
+        vec2 at = steep ? uv.yx : uv;
+        float r0 = piece.ends.x - at.x, r1 = piece.ends.y - at.x;
+        float value = height(piece, clamp(-r0 / (r1 - r0), 0.0, 1.0));
+        int more = turns(steep, i < kinds.y, piece, r0, r1, at.y, value > at.y);
+        winding += i < kinds.z ? more : 0;
+        ++i;
+    } while (i < kinds.z);
     return winding;
 }
 
@@ -150,58 +133,64 @@ float swept_area(vec2 start, vec2 end) {
         ? clamp(middle, -0.5, 0.5) - (middle < 0.0 ? -0.5 : 0.5)
         : (beside(x1) - beside(x0)) / (x1 - x0);
     float total = y0 == y1 ? 0.0 : (y1 - y0) * mean;
-    if ((start.x < 0.0) != (end.x < 0.0)) {
-        float crossing = clamp(start.y - way.y * start.x / way.x, -0.5, 0.5);
-        total += sign(way.x) * ((crossing > 0.0 ? 0.5 : -0.5) - crossing);
-    }
-    return total;
+    float crossing = clamp(start.y - way.y * start.x / way.x, -0.5, 0.5);
+    float beyond = sign(way.x) * ((crossing > 0.0 ? 0.5 : -0.5) - crossing);
+    return (start.x < 0.0) != (end.x < 0.0) ? total + beyond : total;
+}
+
+// Where the shares stand of the four cells, from half to once as wide as a pixel, between whose
+// middles a point lies; `between`: how far from the first to the last.
+int share_texel(vec2 uv, float wide, out vec2 between) {
+    int finest = 2 * trim_side, level = int(log2(max(wide * float(finest), 1.0)));
+    int side = max(finest >> min(level, 30), 1);
+    vec2 place = clamp(uv, 0.0, 1.0) * float(side) + 0.5;
+    ivec2 corner = min(ivec2(place), side);
+    between = place - vec2(corner);
+    // Before this grid come those of (s + 1)^2 corners, s from the finest to twice its own side.
+    int before = 4 * (finest * finest - side * side) / 3 + 4 * (finest - side);
+    return trim_shares + before + min(level, trim_coarsest) + corner.y * (side + 1) + corner.x;
 }
 
 // The share that stays of the pixel around uv, (u,v) having these derivatives by its x and y.
-// Exact where curves are straight within a pixel, corners and slivers too. A pixel that is
-// larger than the cells takes their shares, which are mip-mapped.
+// Exact where curves are straight within a pixel, corners and slivers too. A pixel that is larger
+// than the cells' margins takes what cells of about its size say.
 float pixel_coverage(vec2 uv, vec2 across, vec2 up) {
-    vec2 reach = 0.5 * (abs(across) + abs(up));
+    vec2 reach = 0.5 * (abs(across) + abs(up)), between;
     float widest = max(reach.x, reach.y), size;
-    ivec4 node = find_leaf(uv, widest, size);
-    float determinant = across.x * up.y - across.y * up.x, share = 0.0;
-    bool coarse = widest > TRIM_MARGIN * size || determinant == 0.0;
-    for (bool look = coarse; look; look = false)
-        share = textureGrad(trim_shares, uv, across, up).r;
+    ivec2 node = find_leaf(uv, widest, size);
+    ivec3 kinds = kinds_of(node);
+    float determinant = across.x * up.y - across.y * up.x;
+    bool coarse = widest > TRIM_MARGIN * size || determinant == 0.0 || node.y < 0;
+    int shares = share_texel(uv, sqrt(max(dot(across, across), dot(up, up))), between);
     mat2 to_pixels = mat2(up.y, -across.y, -up.x, across.x) / determinant;
-    int winding = node.z, steeps = node.y & 0xFFFF, count = coarse ? 0 : piece_count(node), near;
+    int winding = node.x >> 24, i = node.x & 0xFFFFFF, end = coarse ? 0 : kinds.z;
     float swept = 0.0;
-    int done = 0;
+    vec4 told;
     do {
-        winding += scan_pieces(node.x + done, count - done, uv, reach, near);
-        do {
-            int i = done + lowest_bit(max(near, 1));
-            vec4 piece = trim_texel(node.x + i, 0);
-            Bump bump = trim_bump(node.x + i);
-            bool steep = i < steeps;
-            vec4 ends = steep ? piece.yxwz : piece;
-            vec2 middle = steep ? uv.yx : uv, half_way = steep ? reach.yx : reach;
-            float first = max(min(ends.x, ends.z), middle.x - half_way.x);
-            float last = min(max(ends.x, ends.z), middle.x + half_way.x);
-            float here = clamp(middle.x, first, last);
-            float away = graph_value(ends, bump, here) - middle.y;
-            bool right = on_the_right(piece, steep, away + middle.y, uv);
-            // Not on the curve itself: then all agree on the side.
-            float least = 1e-5 * half_way.y;
-            if (here == middle.x)
-                away = away > 0.0 ? max(away, least) : min(away, -least);
-            vec2 a = vec2(first - middle.x, graph_value(ends, bump, first) - middle.y);
-            vec2 b = vec2(here - middle.x, away);
-            vec2 c = vec2(last - middle.x, graph_value(ends, bump, last) - middle.y);
-            a = to_pixels * (steep ? a.yx : a);
-            b = to_pixels * (steep ? b.yx : b);
-            c = to_pixels * (steep ? c.yx : c);
-            float area = swept_area(a, b) + swept_area(b, c);
-            winding += near != 0 && right ? ray_way(piece, uv) : 0;
-            swept += near == 0 ? 0.0 : ends.z > ends.x ? area : -area;
-            near &= near - 1;
-        } while (near != 0);
-        done += 30;
-    } while (done < count);
+        Piece piece = trim_piece(coarse ? shares : 2 * i);
+        told = piece.ends;
+        bool steep = i < kinds.x;
+        vec2 at = steep ? uv.yx : uv, half_way = steep ? reach.yx : reach;
+        float r0 = piece.ends.x - at.x, r1 = piece.ends.y - at.x;
+        float forward = r1 > r0 ? half_way.x : -half_way.x;
+        vec3 x = clamp(vec3(-forward, 0.0, forward), min(r0, r1), max(r0, r1));
+        vec3 tau = (x - r0) / (r1 - r0);
+        float first = height(piece, tau.x), here = height(piece, tau.y), last = height(piece, tau.z);
+        int more = turns(steep, i < kinds.y, piece, r0, r1, at.y, here > at.y);
+        // Not on the curve itself: then all agree on the side.
+        float away = here - at.y, least = 1e-5 * half_way.y;
+        if (x.y == 0.0)
+            away = away > 0.0 ? max(away, least) : min(away, -least);
+        vec2 a = vec2(x.x, first - at.y), b = vec2(x.y, away), c = vec2(x.z, last - at.y);
+        a = to_pixels * (steep ? a.yx : a);
+        b = to_pixels * (steep ? b.yx : b);
+        c = to_pixels * (steep ? c.yx : c);
+        float area = swept_area(a, b) + swept_area(b, c);
+        winding += i < end ? more : 0;
+        swept += i < end ? area : 0.0;
+        ++i;
+    } while (i < end);
+    vec2 row = mix(told.xz, told.yw, between.x);
+    float share = mix(row.x, row.y, between.y);
     return coarse ? share : clamp(float(winding) + sign(determinant) * swept, 0.0, 1.0);
 }

@@ -6,11 +6,15 @@ import numpy as np
 import pytest
 
 from reparam.geometry.net import Array
-from reparam.geometry.trimming import TrimRegion, trim_region
+from reparam.geometry.trimming import TrimRegion, packing, trim_region
 from reparam.geometry.trimming.cells import MANY
 from reparam.geometry.trimming.graphs import FIT, graphs_of
-from reparam.geometry.trimming.lookup import find_leaf, pixel_coverage, winding_number
-from reparam.geometry.trimming.packing import FLAT_UNIT
+from reparam.geometry.trimming.lookup import (
+    find_leaf,
+    kinds_and_winding,
+    pixel_coverage,
+    winding_number,
+)
 from reparam.geometry.trimming.pieces import on_border
 from trim_cases import CASES, SQUARE, Loop, circle, cusps, discs, region_of, reverse, star
 
@@ -28,7 +32,7 @@ def test_the_packed_region_is_the_region(name: str) -> None:
     wrong = winding_number(packed, points) != region.inside(*points.T)
     assert (np.abs(region.signed_distance(*points[wrong].T)) < 1e-7).all()
     assert wrong.sum() <= 1
-    assert packed.shares.mean() == pytest.approx(region.area(), abs=2e-7)
+    assert packed.shares[0].mean() == pytest.approx(region.area(), abs=2e-7)
 
 
 def test_graphs_are_near_their_curves() -> None:
@@ -46,9 +50,11 @@ def test_graphs_are_near_their_curves() -> None:
             assert off.max() < 1.2 * FIT
 
 
-def supersampled(region: TrimRegion, middles: Array, across: Array, up: Array) -> Array:
-    """The share of pixels that stays, from 40 x 40 samples of each."""
-    t = (np.arange(40) + 0.5) / 40 - 0.5
+def supersampled(
+    region: TrimRegion, middles: Array, across: Array, up: Array, side: int = 40
+) -> Array:
+    """The share of pixels that stays, from side x side samples of each."""
+    t = (np.arange(side) + 0.5) / side - 0.5
     x, y = (a.reshape(-1, 1) for a in np.meshgrid(t, t))
     places = middles[:, None] + x * across + y * up
     return region.inside(*np.moveaxis(places.clip(1e-9, 1.0 - 1e-9), -1, 0)).mean(1)
@@ -100,10 +106,34 @@ def test_pixels_larger_than_cells_take_shares() -> None:
     assert found.tolist() == [0.0, 1.0]
 
 
+@pytest.mark.parametrize("turn", [0.0, 0.6])
+def test_large_pixels_against_many_samples(turn: float) -> None:
+    """In cells of the first grid; a hole is 3.2 of them wide."""
+    region = region_of("sixty-four")
+    middles = np.random.default_rng(6).uniform(0.1, 0.9, (60, 2))
+    for width in (0.7, 1.4, 1.9, 11.0):
+        across = width / region.pack().side * np.array([np.cos(turn), np.sin(turn)])
+        up = np.array([-across[1], across[0]])
+        steps = (np.tile(step, (60, 1)) for step in (across, up))
+        off = pixel_coverage(region.pack(), middles, *steps)
+        off = off - supersampled(region, middles, across, up, 16)
+        assert np.sqrt((off**2).mean()) < 0.1
+        assert abs(off.mean()) < 0.03
+
+
+def test_more_pieces_in_one_place_than_a_node_can_tell_of(monkeypatch: pytest.MonkeyPatch) -> None:
+    region = trim_region(TINY)
+    monkeypatch.setattr(packing, "DEPTH", 1)
+    assert packing.pack(region.pieces, region.index).nodes[:, 1].max() > 0
+    monkeypatch.setattr(packing, "KIND", 4)
+    with pytest.raises(ValueError, match="expected fewer than 4 pieces in one place, found"):
+        packing.pack(region.pieces, region.index)
+
+
 def test_crowded_cells_are_divided() -> None:
     packed = trim_region(TINY).pack()
-    counts = packed.nodes[:, 1] % FLAT_UNIT + packed.nodes[:, 1] // FLAT_UNIT
-    leaves = packed.nodes[:, 3] == 0
+    counts = kinds_and_winding(packed, np.arange(len(packed.nodes)))[0].sum(1)
+    leaves = packed.divisions == 0
     assert len(packed.nodes) > packed.side**2
     assert counts[leaves].max() <= MANY
     middle = np.array([[0.3, 0.7]])

@@ -15,10 +15,11 @@ from reparam.geometry.camera import Camera
 from reparam.geometry.net import Array, control_net
 from reparam.geometry.trimming import TrimRegion, trim_region
 from reparam.geometry.trimming.lookup import CUT, INSIDE, OUTSIDE, boxes_kept, pixel_coverage
-from reparam.gpu.adaptive import Tolerance
+from reparam.gpu.adaptive import Tolerance, uniform_plan
 from reparam.gpu.painter import Painter
 from reparam.gpu.surfaces import Fine
 from reparam.gpu.targets import Target
+from reparam.gpu.trims import Trims
 from reparam.scenes.layers import Patches
 from reparam.snapshot import Studio
 from trim_cases import CASES, SQUARE, circle, region_of, reverse, star
@@ -96,6 +97,21 @@ def test_shares_of_pixels(studio: Studio, evaluator: str, name: str) -> None:
     step = np.tile([1.0 / SIZE, 0.0], (SIZE**2, 1))
     expected = pixel_coverage(region.pack(), middles().reshape(-1, 2), step, step[:, ::-1])
     assert np.abs(pixels - 255.0 * expected.reshape(SIZE, SIZE)).max() < 1.5
+
+
+@pytest.mark.parametrize("evaluator", EVALUATORS)
+def test_seen_so_small_that_pixels_are_larger_than_cells(studio: Studio, evaluator: str) -> None:
+    """Sixty-four holes on 40 x 40 pixels: what lookup.py says, and all in all the right area."""
+    region, zoom = region_of("sixty-four"), SIZE / 40.0
+    camera = Camera(np.eye(3), np.array([0.5, 0.5, 0.0]), 0.5 * zoom, 0.5 * zoom, 4.0)
+    layer = Patches(FLAT, trim=region)
+    pixels = drawn(studio, [layer], evaluator, 4, camera=camera)[108:148, 108:148, 0] / 255.0
+    t = (np.arange(40) + 0.5) / 40
+    places = np.stack(np.meshgrid(t, t), -1).reshape(-1, 2)
+    step = np.tile([1.0 / 40, 0.0], (1600, 1))
+    expected = pixel_coverage(region.pack(), places, step, step[:, ::-1]).reshape(40, 40)
+    assert np.abs(pixels - expected).max() < 0.01
+    assert pixels.mean() == pytest.approx(region.area(), abs=0.015)
 
 
 @pytest.mark.parametrize("evaluator", EVALUATORS)
@@ -199,6 +215,20 @@ def test_levels_by_tolerance(studio: Studio, evaluator: str) -> None:
     fine = Tolerance(0.5, (SIZE, SIZE))
     pixels = drawn(studio, [Patches(FLAT, trim=region)], evaluator, 1, level=fine)
     assert wrong_pixels(region, pixels[..., 0] > 0) == 0
+
+
+def test_by_tolerance_only_patches_that_are_cut_are_decided(studio: Studio) -> None:
+    low = np.stack(np.divmod(np.arange(64), 8), -1) / 8.0
+    domains = np.stack([low, low + 1.0 / 8.0], -1).reshape(64, 4)
+    layer = Patches(np.repeat(FLAT[None], 64, 0), domains=domains, trim=trim_region([circle()]))
+    (_, whole), (cut, some) = Trims(studio.ctx).planned(layer, uniform_plan(layer, 3))
+    assert cut
+    corners = domains[:, [[0, 2], [0, 3], [1, 2], [1, 3]]]
+    inside = (np.hypot(*np.moveaxis(corners - 0.5, -1, 0)) < 0.3).all(1)
+    assert len(whole.patches) >= 4
+    assert inside[whole.patches].all()
+    assert set(np.flatnonzero(inside)) <= {*whole.patches, *some.patches}
+    assert len(whole.patches) + len(some.patches) < 64
 
 
 def test_boxes_that_no_curve_comes_near() -> None:

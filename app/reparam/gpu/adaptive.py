@@ -49,6 +49,10 @@ class Plan:
     edges: Ints
     tiles: Ints
 
+    def take(self, index: Ints) -> Plan:
+        """Some of the patches."""
+        return Plan(self.patches[index], self.inner[index], self.edges[index], self.tiles[index])
+
     def triangles(self) -> int:
         """About how many triangles they make: two a cell."""
         return int(2 * self.inner.prod(-1).sum())

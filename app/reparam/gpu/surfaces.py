@@ -21,7 +21,7 @@ from .meshes import triangle_indices
 from .nets import NET_UNIT
 from .pictures import Pictures
 from .programs import Program, Programs, degree_defines
-from .trims import Part, Trims
+from .trims import Part, Trims, decided, trim_defines
 
 Array = NDArray[np.float64]
 
@@ -122,14 +122,16 @@ class Surfaces:
 
     def _draw(self, layer: Patches, camera: Camera, evaluator: str, fine: Fine, look: Look) -> None:
         if isinstance(fine, Tolerance):
-            self.adaptive.draw(
-                layer,
-                evaluator,
-                self.adaptive.plan(layer, camera, evaluator, fine),
-                "patch.frag",
-                self.defines(layer, look),
-                lambda program: self.set_common(program, layer, camera, look),
-            )
+            plan = self.adaptive.plan(layer, camera, evaluator, fine)
+            for trimmed, part in self._trims.planned(layer, plan):
+                self.adaptive.draw(
+                    layer,
+                    evaluator,
+                    part,
+                    "patch.frag",
+                    decided(self.defines(layer, look), trimmed),
+                    lambda program: self.set_common(program, layer, camera, look),
+                )
         elif evaluator == "vertex":
             self._draw_meshes(layer, camera, fine, look)
         else:
@@ -163,9 +165,7 @@ class Surfaces:
         if layer.lit and not look.bare:
             defines["LIT"] = 1
         if layer.trim is not None:
-            defines["TRIMMED"] = 1
-            if self._ctx.fbo.samples > 1 and not look.bare:
-                defines["ANTIALIASED"] = 1
+            defines |= trim_defines(layer.trim, self._ctx.fbo.samples > 1 and not look.bare)
         return defines
 
     def set_common(self, program: Program, layer: Patches, camera: Camera, look: Look) -> None:
@@ -337,11 +337,6 @@ def _picture_defines(texture: Texture) -> dict[str, int | str]:
         return {"PICTURE": 1, "RAMP": 1, "FIELD(x, y)": formula, where: 1}
     mirrored = {"MIRRORED": 1} if picture.wrap == "mirror" else {}
     return {"PICTURE": 1, "TEXTURED": 1, **mirrored}
-
-
-def decided(defines: dict[str, int | str], trimmed: bool) -> dict[str, int | str]:
-    """The defines for what is trimmed, or for a part that no curve comes near."""
-    return {k: v for k, v in defines.items() if trimmed or k not in ("TRIMMED", "ANTIALIASED")}
 
 
 def tiles(level: int, largest: int = HARDWARE_LEVEL) -> list[Tile]:

@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 
 from ..errors import GraphicsError
 from ..scenes.layers import Patches
+from .adaptive import Plan
+from .evaluation import patch_count
 from .kept import Kept
 from .meshes import triangle_indices
 from .nets import NET_WIDTH, net_texture
@@ -23,6 +25,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+TRIM_DEFINES = ("TRIMMED", "ANTIALIASED", "TRIM_DIVIDED")
 UNIT_SQUARE = np.array([[0.0, 1.0, 0.0, 1.0]])
 
 
@@ -31,12 +34,12 @@ class TrimTextures:
     """A packed region on the GPU."""
 
     nodes: moderngl.Texture
+    divisions: moderngl.Texture
     pieces: moderngl.Texture
-    shares: moderngl.Texture
 
     def release(self) -> None:
         """Give the memory back."""
-        for texture in (self.nodes, self.pieces, self.shares):
+        for texture in (self.nodes, self.divisions, self.pieces):
             texture.release()
 
 
@@ -61,6 +64,7 @@ class Trims:
         self._ctx = ctx
         self._regions: Kept[TrimTextures] = Kept(TrimTextures.release)
         self._parts: Kept[list[Part]] = Kept(_release)
+        self._patches: Kept[NDArray[np.int8]] = Kept(lambda _: None)
         self._domains: Kept[moderngl.Texture] = Kept(lambda texture: texture.release())
 
     def bind(self, program: Program, layer: Patches, unit: int) -> None:
@@ -71,23 +75,26 @@ class Trims:
         region, domains = layer.trim, layer.domains
         assert region is not None
         packed = region.pack()
-        textures = self._regions.get(packed.shares, None, lambda: self._upload(packed))
+        textures = self._regions.get(packed.shares[0], None, lambda: self._upload(packed))
         where = self._domains.get(
-            packed.shares if domains is None else domains,
+            packed.shares[0] if domains is None else domains,
             region.domain,
             lambda: net_texture(self._ctx, domains_in_square(region, domains)),
         )
-        bound = (textures.nodes, textures.pieces, textures.shares, where)
+        bound = (textures.nodes, textures.divisions, textures.pieces, where)
         for number, texture in enumerate(bound, start=unit):
             texture.use(number)
         program.set(
             trim_nodes=unit,
-            trim_pieces=unit + 1,
-            trim_shares=unit + 2,
+            trim_pieces=unit + 2,
             patch_domains=unit + 3,
             trim_side=packed.side,
+            trim_shares=2 * len(packed.pieces),
+            trim_coarsest=len(packed.shares) - 1,
             domain_stride=0 if domains is None else 1,
         )
+        if "TRIM_DIVIDED" in program.defines:
+            program.set(trim_divisions=unit + 1)
 
     def cells(self, layer: Patches, lines: Array) -> NDArray[np.int8]:
         """What stays of the cells between lines 0 .. 1 of each patch: (patches, k, k), or (1, k,
@@ -105,6 +112,27 @@ class Trims:
         kept = boxes_kept(region.pack(), low.reshape(-1, 2), high.reshape(-1, 2))
         return kept.reshape(low.shape[:-1])
 
+    def patches(self, layer: Patches) -> NDArray[np.int8]:
+        """What stays of each patch: (patches,), or (1,) without domains."""
+        region = layer.trim
+        assert region is not None
+        domains = layer.domains if layer.domains is not None else region.pack().shares[0]
+        whole = np.array([0.0, 1.0])
+        return self._patches.get(domains, region, lambda: self.cells(layer, whole).reshape(-1))
+
+    def planned(self, layer: Patches, plan: Plan) -> Iterator[tuple[bool, Plan]]:
+        """The patches to draw; of a trimmed surface first those that no curve comes near, then
+        those whose fragments are to be decided."""
+        if layer.trim is None:
+            yield False, plan
+            return
+        from ..geometry.trimming.lookup import CUT, INSIDE
+
+        kept = np.broadcast_to(self.patches(layer), patch_count(layer.net))[plan.patches]
+        for which in (INSIDE, CUT):
+            here = np.flatnonzero(kept == which)
+            yield which == CUT, plan.take(here)
+
     def parts(self, layer: Patches, level: int, patches: range) -> list[Part]:
         """The triangles of a batch of patches that no curve comes near, and the others; those
         outside are left out. Kept while they are drawn."""
@@ -113,7 +141,7 @@ class Trims:
         domains = b"" if layer.domains is None else layer.domains.tobytes()
         key = (region.domain, domains, level, patches.start, patches.stop)
         return self._parts.get(
-            region.pack().shares, key, lambda: list(self._split(layer, level, patches))
+            region.pack().shares[0], key, lambda: list(self._split(layer, level, patches))
         )
 
     def _split(self, layer: Patches, level: int, patches: range) -> Iterator[Part]:
@@ -129,29 +157,49 @@ class Trims:
                 yield Part(which == CUT, self._ctx.buffer(chosen.tobytes()), chosen.size)
 
     def _upload(self, packed: PackedTrim) -> TrimTextures:
-        rows = -(-len(packed.nodes) // NET_WIDTH)
-        if rows > self._ctx.info["GL_MAX_TEXTURE_SIZE"]:
+        from ..geometry.trimming.packing import corner_shares
+
+        shares = [corner_shares(level).reshape(-1, 4) for level in packed.shares]
+        pieces = np.concatenate([packed.pieces.reshape(-1, 4), *shares, np.zeros((1, 4))])
+        return TrimTextures(
+            self._table(packed.nodes, "i4"),
+            self._table(packed.divisions[:, None], "i4"),
+            self._table(pieces.astype(np.float32), "f4"),
+        )
+
+    def _table(self, rows: NDArray[np.int32] | NDArray[np.float32], dtype: str) -> moderngl.Texture:
+        """A texel a row, wrapped at NET_WIDTH."""
+        height = max(-(-len(rows) // NET_WIDTH), 1)
+        if height > self._ctx.info["GL_MAX_TEXTURE_SIZE"]:
             raise GraphicsError(
                 f"expected a trim region of up to {self._ctx.info['GL_MAX_TEXTURE_SIZE']} rows "
-                f"of cells, found {rows}"
+                f"of cells and of pieces, found {height}"
             )
-        nodes = np.zeros((rows * NET_WIDTH, 4), np.int32)
-        nodes[: len(packed.nodes)] = packed.nodes
-        cells = self._ctx.texture((NET_WIDTH, rows), 4, nodes.tobytes(), dtype="i4")
-        cells.filter = (moderngl.NEAREST, moderngl.NEAREST)
-        texels = np.round(255.0 * packed.shares).astype(np.uint8)
-        shares = self._ctx.texture(texels.shape[::-1], 1, texels.tobytes(), alignment=1)
-        shares.repeat_x = shares.repeat_y = False
-        shares.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
-        shares.build_mipmaps()
-        pieces = packed.pieces if len(packed.pieces) else np.zeros((1, 3, 4))
-        return TrimTextures(cells, net_texture(self._ctx, pieces.astype(np.float64)), shares)
+        texels = np.zeros((height * NET_WIDTH, rows.shape[1]), rows.dtype)
+        texels[: len(rows)] = rows
+        texture = self._ctx.texture(
+            (NET_WIDTH, height), rows.shape[1], texels.tobytes(), dtype=dtype
+        )
+        texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+        return texture
 
     def sweep(self) -> None:
         """End of a frame."""
         self._regions.sweep()
         self._domains.sweep()
         self._parts.sweep()
+        self._patches.sweep()
+
+
+def trim_defines(region: TrimRegion, antialiased: bool) -> dict[str, int]:
+    """The defines of what is trimmed by a region."""
+    wanted = {"TRIMMED": True, "ANTIALIASED": antialiased, "TRIM_DIVIDED": region.pack().divided}
+    return {name: 1 for name, on in wanted.items() if on}
+
+
+def decided(defines: dict[str, int | str], trimmed: bool) -> dict[str, int | str]:
+    """The defines for what is trimmed, or for a part that no curve comes near."""
+    return {k: v for k, v in defines.items() if trimmed or k not in TRIM_DEFINES}
 
 
 def domains_in_square(region: TrimRegion, domains: Array | None) -> Array:

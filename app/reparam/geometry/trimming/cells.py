@@ -18,11 +18,10 @@ a pixel too, for antialiasing.)
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from .graphs import FLAT, NODES, POWERS, STEEP, TERMS, Graphs, bump_of
+from .cutting import Cut
+from .graphs import FLAT, STEEP, TERMS, Graphs
 from .pieces import Array, Indices, Mask
 from .winding import WindingIndex, expand
 
@@ -31,82 +30,9 @@ MANY = 16  # graphs in a leaf: it is divided
 DIVISION = 4  # into so many by so many
 DEPTH = 5
 COARSEST, FINEST = 16, 256  # cells along a side of the first grid
-NEAR = 1e-7
+NEAR = 3e-7
 PLACES = np.array([[0.4142, 0.6180], [0.7321, 0.2361], [0.1459, 0.4495], [0.8541, 0.9271]])
-BETA = 1.0 / (POWERS + 2.0) / (POWERS + 3.0)  # integrals of tau^(k+1) (1-tau)
-
-
-@dataclass(frozen=True, eq=False)
-class Cut:
-    """Stretches of graphs inside boxes: graphs (m) and, for each, the number of its box (m,)."""
-
-    graphs: Graphs
-    box: Indices
-
-    def take(self, index: Indices) -> Cut:
-        """Some of the stretches."""
-        return Cut(self.graphs.take(index), self.box[index])
-
-
-def cut_to_boxes(graphs: Graphs, index: Indices, box: Indices, low: Array, high: Array) -> Cut:
-    """Graphs with these numbers, each cut to its own box [low, high] (boxes, 2); empty ones go."""
-    axis = graphs.axis[index]
-    number: Indices = np.arange(len(index))
-    x, y = graphs.along(index)
-    x_low, x_high = low[box][number, axis], high[box][number, axis]
-    y_low, y_high = low[box][number, 1 - axis], high[box][number, 1 - axis]
-    first, last = np.maximum(x.min(1), x_low), np.minimum(x.max(1), x_high)
-    met = np.flatnonzero((first < last) & (y.max(1) >= y_low) & (y.min(1) <= y_high))
-    index, box, axis = index[met], box[met], axis[met]
-    x, first, last = x[met], first[met], last[met]
-    y_low, y_high = y_low[met], y_high[met]
-    at = np.stack([first, last])
-    values = np.stack([graphs.values(index, first), graphs.values(index, last)])
-    for side in (0, 1):
-        for bound, sign in ((y_low, -1.0), (y_high, 1.0)):
-            beyond = np.flatnonzero(
-                (sign * (values[side] - bound) > 0.0) & (sign * (values[1 - side] - bound) < 0.0)
-            )
-            at[side, beyond] = graphs.solve(index[beyond], bound[beyond])
-            values[side, beyond] = bound[beyond]
-    level = values[0] == values[1]
-    within = (values.max(0) > y_low) & (values.min(0) < y_high) & (at[0] < at[1])
-    within = within | (level & (values[0] >= y_low) & (values[0] <= y_high))
-    forward = x[:, 0] <= x[:, 1]
-    start, end = (np.stack([a, v], -1) for a, v in zip(at, values, strict=True))
-    ends = np.stack(
-        [np.where(forward[:, None], start, end), np.where(forward[:, None], end, start)], 1
-    )
-    kept = np.flatnonzero(np.asarray(within))
-    bump = _bump_between(graphs, index[kept], ends[kept])
-    steep = axis[kept] == STEEP
-    ends = np.where(steep[:, None, None], ends[kept][..., ::-1], ends[kept])
-    return Cut(Graphs(axis[kept], ends, bump), box[kept])
-
-
-def _bump_between(graphs: Graphs, index: Indices, ends: Array) -> Array:
-    """The bumps of stretches whose ends are given as (x, f(x)): (k, 2, 2)."""
-    x = ends[:, :1, 0] + NODES * (ends[:, 1:, 0] - ends[:, :1, 0])
-    interior = graphs.values(np.repeat(index, TERMS), x.ravel()).reshape(-1, TERMS)
-    bump = bump_of(interior, ends[:, 0, 1], ends[:, 1, 1])
-    bent = np.abs(graphs.bump[index]).max(1, keepdims=True) > 0.0
-    return np.where(bent, bump, 0.0)
-
-
-def close_on_the_right(cut: Cut, low: Array, high: Array) -> Cut:
-    """With them, the pieces along each box's right edge from where graphs cross it to its foot."""
-    graphs, box = cut.graphs, cut.box
-    at_edge = graphs.ends[..., 0] == high[box, 0][:, None]
-    foot = np.stack([high[:, 0], low[:, 1]], -1)
-    enters, leaves = np.flatnonzero(at_edge[:, 0]), np.flatnonzero(at_edge[:, 1])
-    up = np.stack([foot[box[enters]], graphs.ends[enters, 0]], 1)
-    down = np.stack([graphs.ends[leaves, 1], foot[box[leaves]]], 1)
-    ends = np.concatenate([graphs.ends, up, down])
-    axis = np.append(graphs.axis, np.full(len(up) + len(down), STEEP))
-    bump = np.concatenate([graphs.bump, np.zeros((len(up) + len(down), TERMS))])
-    box = np.concatenate([box, box[enters], box[leaves]])
-    lasting = np.flatnonzero((ends[:, 0] != ends[:, 1]).any(-1))
-    return Cut(Graphs(axis, ends, bump), box).take(lasting)
+BETA = 1.0 / (np.arange(TERMS) + 2.0) / (np.arange(TERMS) + 3.0)  # integrals of tau^(k+1) (1-tau)
 
 
 def cells_met(graphs: Graphs, side: int, margin: float) -> tuple[Indices, Indices]:
@@ -171,10 +97,7 @@ def near_graphs(graphs: Graphs, points: Array) -> Mask:
 
 
 def ray_crossings(graphs: Graphs, points: Array) -> Indices:
-    """+1 or -1 where the ray to the right from a point (k, 2) meets the graph beside it, else 0.
-
-    Twin: ray_crossing in shaders/lib/trim.glsl.
-    """
+    """+1 or -1 where the ray to the right from a point (k, 2) meets the graph beside it, else 0."""
     everything = np.arange(len(graphs))
     x, y = graphs.along(everything)
     u, v = points.T

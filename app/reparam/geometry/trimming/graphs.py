@@ -21,11 +21,18 @@ from .pieces import STRAIGHT, Array, Indices, Mask, Pieces, on_border
 FIT = 5e-8  # of the domain
 SHORTEST = 1e-8
 TERMS = 8  # of the bump
-NODES = (1.0 - np.cos(np.pi * np.arange(1, TERMS + 1) / (TERMS + 1))) / 2.0  # f meets the curve
 CHECKS = np.array([0.013, 0.07, 0.3, 0.5, 0.7, 0.93, 0.987])  # and here it is most off
-POWERS = np.arange(TERMS)
-TO_BUMP = np.linalg.inv(NODES[:, None] ** POWERS)
 FLAT, STEEP = 0, 1
+
+
+def bump_basis(terms: int) -> tuple[Array, Array]:
+    """Where f meets the curve, (terms,), and what makes of the swell there b0, b1 ...: (terms,
+    terms)."""
+    nodes = (1.0 - np.cos(np.pi * np.arange(1, terms + 1) / (terms + 1))) / 2.0
+    return nodes, np.asarray(np.linalg.inv(nodes[:, None] ** np.arange(terms)), np.float64)
+
+
+NODES, TO_BUMP = bump_basis(TERMS)
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,19 +61,27 @@ class Graphs:
         """f of the graphs with these numbers at x: (k,)."""
         (x0, x1), (y0, y1) = (pair.T for pair in self.along(index))
         tau = (x - x0) / (x1 - x0)
-        bump = ((tau[:, None] ** POWERS) * self.bump[index]).sum(1)
-        return np.asarray(y0 + tau * (y1 - y0) + tau * (1.0 - tau) * bump)
+        return np.asarray(y0 + tau * (y1 - y0 + (1.0 - tau) * horner(self.bump[index], tau)))
 
     def solve(self, index: Indices, y: Array) -> Array:
         """Where f takes the values y, by bisection, as f is monotone: (k,)."""
-        x, values = self.along(index)
-        low, high = x.T.copy()
-        sign = np.where(values[:, 1] >= values[:, 0], 1.0, -1.0)
+        (x0, x1), (y0, y1) = (pair.T for pair in self.along(index))
+        bump, low, high = self.bump[index], np.zeros(len(index)), np.ones(len(index))
+        sign = np.where(y1 >= y0, 1.0, -1.0)
         for _ in range(50):
-            middle = (low + high) / 2.0
-            before = (self.values(index, middle) - y) * sign < 0.0
-            low, high = np.where(before, middle, low), np.where(before, high, middle)
-        return np.asarray((low + high) / 2.0)
+            tau = (low + high) / 2.0
+            value = y0 + tau * (y1 - y0 + (1.0 - tau) * horner(bump, tau))
+            before = (value - y) * sign < 0.0
+            low, high = np.where(before, tau, low), np.where(before, high, tau)
+        return np.asarray(x0 + (low + high) / 2.0 * (x1 - x0))
+
+
+def horner(coefficients: Array, t: Array) -> Array:
+    """Polynomials (n, k), lowest power first, at t (n,)."""
+    result = coefficients[:, -1]
+    for column in coefficients.T[-2::-1]:
+        result = column + t * result
+    return np.asarray(result)
 
 
 def bump_of(interior: Array, first: Array, last: Array) -> Array:

@@ -5,9 +5,17 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .cells import DIVISION, MARGIN, ray_crossings
-from .graphs import FLAT, STEEP, TERMS, Graphs
-from .packing import FLAT_UNIT, PackedTrim
+from .cells import DIVISION, MARGIN
+from .graphs import horner
+from .packing import (
+    FLAT_PIECE,
+    KIND,
+    KINDS,
+    STEEP_PIECE,
+    WINDING,
+    PackedTrim,
+    corner_shares,
+)
 from .pieces import Array, Indices
 from .winding import expand
 
@@ -33,7 +41,7 @@ def find_leaf(
         place[active] = scaled - cell
         size[active] /= division
         node[active] = first[active] + cell[:, 1] * division + cell[:, 0]
-        first[active] = packed.nodes[node[active], 3]
+        first[active] = packed.divisions[node[active]]
         division = DIVISION
         deeper = first[active] > 0
         if reach is not None:
@@ -42,21 +50,28 @@ def find_leaf(
     return node, size
 
 
-def _pieces_of(packed: PackedTrim, leaf: Indices) -> tuple[Indices, Graphs]:
-    """For each of the leaves, its pieces: which of the leaves (m,), and the graphs (m)."""
-    begin, counts = packed.nodes[leaf, :2].T.astype(np.intp)
-    flats, steeps = np.divmod(counts, FLAT_UNIT)
-    number, place = expand(begin, steeps + flats)
-    values = packed.pieces[place].astype(np.float64)
-    axis = np.where(place < (begin + steeps)[number], STEEP, FLAT)
-    return number, Graphs(axis, values[:, 0].reshape(-1, 2, 2), values[:, 1:].reshape(-1, TERMS))
+def kinds_and_winding(packed: PackedTrim, node: Indices) -> tuple[Indices, Indices]:
+    """How many pieces of each of KINDS nodes (k,) have, (k, 3), and their winding numbers (k,)."""
+    first, kinds = packed.nodes[node].astype(np.intp).T
+    told = np.maximum(kinds, 0)
+    counts = np.stack([told % KIND, told // KIND % KIND, told // KIND**2], -1)
+    return counts, first // WINDING
+
+
+def _pieces_of(packed: PackedTrim, leaf: Indices) -> tuple[Indices, Indices, Array]:
+    """For each of the leaves, its pieces: which of the leaves, their kinds, (m,) each, and their
+    numbers (m, 8)."""
+    counts, _ = kinds_and_winding(packed, leaf)
+    number, place = expand(packed.nodes[leaf, 0].astype(np.intp) % WINDING, counts.sum(1))
+    kind = np.repeat(np.tile(KINDS, len(leaf)), counts.ravel())
+    return number, kind, packed.pieces[place].astype(np.float64).reshape(-1, 8)
 
 
 def boxes_kept(packed: PackedTrim, low: Array, high: Array) -> NDArray[np.int8]:
     """What stays of boxes [low, high] (n, 2) of the unit square: OUTSIDE, INSIDE, or CUT where a
     curve may come near: (n,). By cells of the first grid, summed up beforehand."""
-    grid = packed.nodes[: packed.side**2].reshape(packed.side, packed.side, 4)
-    met = (grid[..., 1] > 0) | (grid[..., 3] > 0)
+    grid = packed.nodes[: packed.side**2].reshape(packed.side, packed.side, 2)
+    met = grid[..., 1] != 0
     total = np.pad(met.astype(np.int64).cumsum(0).cumsum(1), ((1, 0), (1, 0)))
     first, last = (
         np.clip(np.floor(box * packed.side + slack), 0, packed.side - 1).astype(np.intp)
@@ -64,57 +79,98 @@ def boxes_kept(packed: PackedTrim, low: Array, high: Array) -> NDArray[np.int8]:
     )
     (i, j), (k, m) = first.T, last.T
     count = total[m + 1, k + 1] - total[j, k + 1] - total[m + 1, i] + total[j, i]
-    alike = np.where(grid[j, i, 2] != 0, INSIDE, OUTSIDE)
+    alike = np.where(grid[j, i, 0] // WINDING != 0, INSIDE, OUTSIDE)
     return np.where(count > 0, CUT, alike).astype(np.int8)
+
+
+def height(piece: Array, x: Array) -> Array:
+    """f(x) of pieces (m, 8) at (m,)."""
+    tau = (x - piece[:, 0]) / (piece[:, 1] - piece[:, 0])
+    return np.asarray(piece[:, 2] + tau * (piece[:, 3] + (1.0 - tau) * horner(piece[:, 4:], tau)))
+
+
+def turns(kind: Indices, piece: Array, x: Array, y: Array, value: Array) -> Indices:
+    """What pieces (m, 8) add to the winding number of points (x, y), each (m,), `value` being
+    their height there.
+
+    The ray to the right crosses a steep piece if it starts at a height between its ends and on
+    the left of it. That it crosses a flat one is the difference of two statements: that it runs
+    lower than the piece's right end, and that the point lies lower than the piece itself.
+    """
+    start, end, y0, rise = piece[:, :4].T
+    forward = end > start
+    under = (value > y).astype(np.intp)
+    lower = (np.where(forward, y0 + rise, y0) > y) & (kind == FLAT_PIECE)
+    crossed = ((start > x) != (end > x)) * under
+    once = np.where(kind == STEEP_PIECE, crossed, lower.astype(np.intp) - under)
+    return np.asarray(np.where(forward, once, -once))
 
 
 def winding_number(packed: PackedTrim, points: Array) -> Indices:
     """1 where the surface stays and 0 where not, at points (k, 2) of the unit square: (k,)."""
     leaf, _ = find_leaf(packed, points)
-    number, graphs = _pieces_of(packed, leaf)
-    crossings = np.bincount(number, ray_crossings(graphs, points[number]), len(points))
-    return np.asarray(packed.nodes[leaf, 2] + crossings.round().astype(np.intp))
+    number, kind, piece = _pieces_of(packed, leaf)
+    x, y = _along(kind, points[number])
+    here = np.clip(x, piece[:, :2].min(1), piece[:, :2].max(1))
+    met = np.bincount(number, turns(kind, piece, x, y, height(piece, here)), len(points))
+    return np.asarray(kinds_and_winding(packed, leaf)[1] + met.round().astype(np.intp))
+
+
+def _along(kind: Indices, pairs: Array) -> tuple[Array, Array]:
+    """Pairs (m, 2) for (u, v), by the axis that the piece is over, and by the other."""
+    steep = kind == STEEP_PIECE
+    return np.where(steep, pairs[:, 1], pairs[:, 0]), np.where(steep, pairs[:, 0], pairs[:, 1])
 
 
 def pixel_coverage(packed: PackedTrim, points: Array, across: Array, up: Array) -> Array:
     """The share that stays of pixels with their middles at points (k, 2): (k,).
 
     `across` and `up` (k, 2) are the derivatives of (u, v) by the pixel's x and y. Exact for
-    curves that are straight within a pixel, corners and slivers too; where a pixel is larger
-    than a cell's margin the cell's own coverage is taken.
+    curves that are straight within a pixel, corners and slivers too; a pixel that is larger than
+    the cells' margins takes what cells of about its size say.
     """
     reach = (np.abs(across) + np.abs(up)) / 2.0
+    wide = np.sqrt(np.maximum((across**2).sum(1), (up**2).sum(1)))
     leaf, size = find_leaf(packed, points, reach)
-    number, graphs = _pieces_of(packed, leaf)
-    u, v = points[number].T
+    number, kind, piece = _pieces_of(packed, leaf)
     determinant = across[:, 0] * up[:, 1] - across[:, 1] * up[:, 0]
-    axis, everything = graphs.axis, np.arange(len(graphs))
-    x, _ = graphs.along(everything)
-    middle = np.where(axis == STEEP, v, u)
-    half = reach[number, axis]
-    low = np.maximum(x.min(1), middle - half)
-    high = np.minimum(x.max(1), middle + half)
-    seen = np.flatnonzero(low < high)
-    nearest = np.clip(middle, low, high)
+    (x, y), (half, rise) = _along(kind, points[number]), _along(kind, reach[number])
+    low, high = piece[:, :2].min(1), piece[:, :2].max(1)
+    forward = np.where(piece[:, 1] > piece[:, 0], half, -half)
     offsets = []
-    for at in (low, nearest, high):
-        value = graphs.values(everything, at)
-        off = np.stack([at - middle, value - np.where(axis == STEEP, u, v)], -1)
-        if at is nearest:
-            least = 1e-5 * reach[number, 1 - axis]
-            away = np.where(
-                off[:, 1] > 0.0, np.maximum(off[:, 1], least), np.minimum(off[:, 1], -least)
-            )
-            off[:, 1] = np.where(off[:, 0] == 0.0, away, off[:, 1])
-        off = np.where((axis == STEEP)[:, None], off[:, ::-1], off)
+    for step in (-forward, 0.0, forward):
+        at = np.clip(x + step, low, high)
+        value = height(piece, at)
+        off = np.stack([at - x, value - y], -1)
+        if step is not forward and np.ndim(step) == 0:
+            met = turns(kind, piece, x, y, value)
+            least = np.where(value > y, 1e-5, -1e-5) * rise
+            near = (off[:, 0] == 0.0) & (np.abs(off[:, 1]) < 1e-5 * rise)
+            off[:, 1] = np.where(near, least, off[:, 1])
+        off = np.where((kind == STEEP_PIECE)[:, None], off[:, ::-1], off)
         offsets.append(to_pixels(off, across[number], up[number], determinant[number]))
-    forward = np.where(x[:, 1] > x[:, 0], 1.0, -1.0)
     swept = swept_area(offsets[0], offsets[1]) + swept_area(offsets[1], offsets[2])
-    total = np.bincount(number[seen], (forward * swept)[seen], len(points))
-    coverage = winding_number(packed, points) + np.sign(determinant) * total
+    total = np.bincount(number, met + np.sign(determinant)[number] * swept, len(points))
+    coverage = kinds_and_winding(packed, leaf)[1] + total
     coarse = (reach > MARGIN * size[:, None]).any(1) | (determinant == 0.0)
-    cell = np.minimum((points.clip(0.0, 1.0) * packed.side).astype(np.intp), packed.side - 1)
-    return np.where(coarse, packed.shares[cell[:, 1], cell[:, 0]], coverage.clip(0.0, 1.0))
+    coarse |= packed.nodes[leaf, 1] < 0
+    return np.where(coarse, cell_share(packed, points, wide), coverage.clip(0.0, 1.0))
+
+
+def cell_share(packed: PackedTrim, points: Array, wide: Array) -> Array:
+    """The share that stays of cells from half to once as wide as pixels (k,) at points (k, 2),
+    interpolated between their middles: (k,)."""
+    finest = len(packed.shares[0])
+    level = np.floor(np.log2(np.maximum(wide * finest, 1.0))).astype(np.intp)
+    found = np.zeros(len(points))
+    for chosen, shares in enumerate(packed.shares):
+        here = np.minimum(level, len(packed.shares) - 1) == chosen
+        place = points[here].clip(0.0, 1.0) * len(shares) + 0.5
+        corner = np.minimum(place.astype(np.intp), len(shares))
+        u, v = (place - corner).T
+        a, b, c, d = corner_shares(shares)[corner[:, 1], corner[:, 0]].T
+        found[here] = (1 - v) * (a + u * (b - a)) + v * (c + u * (d - c))
+    return found
 
 
 def to_pixels(offset: Array, across: Array, up: Array, determinant: Array) -> Array:
