@@ -8,11 +8,12 @@ import pytest
 from reparam.errors import UsageError
 from reparam.exporting import parts_of
 from reparam.geometry.distortion import distortions
+from reparam.geometry.evaluate import evaluate, project
 from reparam.geometry.planar_maps import R
 from reparam.geometry.stretch import stretch
 from reparam.scenes.cursor import numbers
 from reparam.scenes.fields import attached_by_r, deviations, given, over_facets, over_spans, torsion
-from reparam.scenes.layers import Label, Patches
+from reparam.scenes.layers import Handles, Label, Patches
 from reparam.scenes.linked import linked
 from reparam.scenes.shading import SQUARE, attached_by
 from reparam.subject import Subject, open_subject
@@ -107,3 +108,33 @@ def test_the_cursor_counts_by_the_square_not_by_its_pieces() -> None:
             notes = dict(space.notes)
             assert notes["det"] == numbers(whole.determinant)
             assert notes["stretch"] == numbers(*whole.factors)
+
+
+EDITED = [
+    [[-1, 1], [0, 1.7], [1.6, 1.3]],
+    [[-1.2, 0], [0.5, 0.2], [2, 0]],
+    [[-1, -1], [0, -2], [1, -1.4]],
+]
+
+
+def test_the_field_follows_r() -> None:
+    edited = subject("field=given", "g=x").changed("points", np.array(EDITED))
+    figure = edited.figure()
+    assert "‖p − g‖ = " in figure.caption[1]
+    assert float(figure.caption[1].split("‖p − g‖ = ")[1].split(",")[0]) < 1e-12
+    (patches,) = (layer for layer in figure.subject.layers if isinstance(layer, Patches))
+    corner = project(evaluate(patches.net[7], 0.0, 1.0))  # of the last piece in the first row
+    assert corner == pytest.approx([1.6, 1.3, 0.0])
+    (handles,) = (layer for layer in figure.subject.layers if isinstance(layer, Handles))
+    changes = handles.drag(edited.values, 4, np.array([0.3, 0.1, 0.0]))
+    assert changes["points"][1, 1].tolist() == [0.3, 0.1]
+    assert (np.delete(changes["points"].reshape(9, 2), 4, 0) == np.delete(
+        np.reshape(EDITED, (9, 2)), 4, 0)).all()  # fmt: skip
+
+
+def test_a_map_that_folds_is_refused() -> None:
+    folded = np.array(EDITED)
+    folded[1, 1] = 6.0, 0.0
+    with pytest.raises(UsageError, match=r"points: expected a map with det J > 0, found -.*folds"):
+        subject().changed("points", folded).figure()
+    subject("field=given", "attach=r").changed("points", folded).figure()  # r attaches still

@@ -9,7 +9,7 @@ Either map may be replaced by one that is known at the corners of facets alone.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -20,6 +20,7 @@ from ..geometry.isogeometric import Solution, solve
 from ..geometry.net import Array, control_net
 from ..geometry.nurbs import surface_to_bezier
 from ..geometry.planar_maps import R
+from .remember import remember
 
 GIVEN = ("cos(2x) exp(y) + x y", "x", "x² − y²", "sin(4x) sin(4y)")
 SAMPLES = 8  # steps in a facet where deviations are looked for
@@ -29,9 +30,32 @@ Function = Callable[[Array, Array], Array]
 
 
 @dataclass(frozen=True, eq=False)
+class Omega:
+    """The image of the square under a biquadratic map (3, 3, 4)."""
+
+    net: Array
+
+    def points(self, steps: int) -> tuple[Array, Array]:
+        """x and y at so many equal steps in u and in v."""
+        t = np.linspace(0.0, 1.0, steps + 1)
+        points = project(evaluate(self.net, *np.meshgrid(t, t, indexing="ij")))
+        return points[..., 0], points[..., 1]
+
+
+OF_R = Omega(R)
+
+
+@remember
+def omega_of(points: Array) -> Omega:
+    """Omega for the coefficients (13), (3, 3, 2), as they are or edited."""
+    return OF_R if np.array_equal(points, R[..., :2]) else Omega(control_net(points))
+
+
+@dataclass(frozen=True, eq=False)
 class Problem:
     """-Laplace p = source on Omega, p = value on its rim; a given g is the value everywhere."""
 
+    omega: Omega
     words: str
     source: Function
     value: Function
@@ -45,15 +69,15 @@ class Problem:
         return g_x, g_y
 
 
-@lru_cache(maxsize=1)
-def torsion() -> Problem:
+@lru_cache(maxsize=4)
+def torsion(omega: Omega = OF_R) -> Problem:
     """The torsion of a shaft with this cross-section."""
     words = "−Δp = 1,  p = 0 on the rim: the torsion of a shaft"
-    return Problem(words, lambda x, y: 1.0 + 0.0 * x * y, lambda x, y: 0.0 * x * y)
+    return Problem(omega, words, lambda x, y: 1.0 + 0.0 * x * y, lambda x, y: 0.0 * x * y)
 
 
 @lru_cache(maxsize=32)
-def given(text: str) -> Problem:
+def given(text: str, omega: Omega = OF_R) -> Problem:
     """g of x and y; it solves -Laplace p = -Laplace g.
 
     Raises ValueError where it is no formula, or has no value, or no second derivatives, on Omega.
@@ -71,7 +95,7 @@ def given(text: str) -> Problem:
     def source(x: Array, y: Array) -> Array:
         return _finite(-bends[0](x=x, y=y) - bends[1](x=x, y=y), "second derivatives", x, y)
 
-    return Problem(f"g(x, y) = {text}", source, value, formula, slopes)
+    return Problem(omega, f"g(x, y) = {text}", source, value, formula, slopes)
 
 
 def _finite(values: Array, what: str, x: Array, y: Array) -> Array:
@@ -85,8 +109,11 @@ def _finite(values: Array, what: str, x: Array, y: Array) -> Array:
 
 @lru_cache(maxsize=16)
 def solution(problem: Problem, degree: int, spans: int) -> Solution:
-    """The spline."""
-    return solve(R, degree, spans, problem.source, problem.value)
+    """The spline. Raises ValueError where r folds."""
+    try:
+        return solve(problem.omega.net, degree, spans, problem.source, problem.value)
+    except ValueError as fault:
+        raise ValueError(str(fault).replace("expected a map", "points: expected a map")) from None
 
 
 COUNTS = (2, 4, 8, 16, 32)  # spans
@@ -111,6 +138,7 @@ class Field:
     `exact` if it is to be evaluated at every point. `range` has the least and largest value.
     """
 
+    omega: Omega
     net: Array
     map: Array
     pieces: int
@@ -144,16 +172,17 @@ def over_spans(problem: Problem, degree: int, spans: int) -> Field:
     nets, values = solution(problem, degree, spans).pieces()
     maps = np.zeros((*values.shape, 4))
     maps[..., 0], maps[..., 3] = values, 1.0
-    field = Field(nets, maps, spans, None, True, (0.0, 0.0))
+    field = Field(problem.omega, nets, maps, spans, None, True, (0.0, 0.0))
     extremes = _extremes(problem) if problem.formula else _seen(field)
-    return Field(nets, maps, spans, None, True, extremes)
+    return replace(field, range=extremes)
 
 
 @lru_cache(maxsize=16)
 def attached_by_r(problem: Problem, spans: int = 1) -> Field:
     """Given, and attached by r: interpolated as (x,y) is, (s,t) equals it everywhere."""
-    nets = pieces_of_r(spans)
-    return Field(nets, nets, spans, problem.formula, False, _extremes(problem))
+    nets = pieces_of(problem.omega, spans)
+    extremes = _extremes(problem)
+    return Field(problem.omega, nets, nets, spans, problem.formula, False, extremes)
 
 
 @lru_cache(maxsize=16)
@@ -164,7 +193,8 @@ def over_facets(field: Field, facets: int) -> Field:
     a, b = corners[:-1, :-1], corners[:-1, 1:]
     c, d = corners[1:, :-1], corners[1:, 1:]
     maps = np.stack([np.stack([a, b], -2), np.stack([c, d], -2)], -3).reshape(-1, 2, 2, 4)
-    return Field(pieces_of_r(facets), maps, facets, field.formula, True, field.range)
+    nets = pieces_of(field.omega, facets)
+    return replace(field, net=nets, map=maps, pieces=facets, exact=True)
 
 
 def deviations(field: Field, facets: int) -> tuple[float, float]:
@@ -186,17 +216,15 @@ def deviation_words(field: Field, facets: int) -> str:
 
 
 @lru_cache(maxsize=16)
-def pieces_of_r(pieces: int) -> Array:
+def pieces_of(omega: Omega, pieces: int) -> Array:
     """r over the parts of the square: (pieces^2, 3, 3, 4)."""
     ends, cuts = np.repeat([0.0, 1.0], 3), np.arange(1, pieces) / pieces
-    return surface_to_bezier((ends, ends), R, (3, 3), (cuts, cuts)).patches()
+    return surface_to_bezier((ends, ends), omega.net, (3, 3), (cuts, cuts)).patches()
 
 
 def _extremes(problem: Problem) -> tuple[float, float]:
     """The least and largest given value on Omega."""
-    t = np.linspace(0.0, 1.0, RANGE_SAMPLES + 1)
-    x, y, _ = np.moveaxis(project(evaluate(R, *np.meshgrid(t, t, indexing="ij"))), -1, 0)
-    return _apart(problem.value(x, y))
+    return _apart(problem.value(*problem.omega.points(RANGE_SAMPLES)))
 
 
 def _seen(field: Field) -> tuple[float, float]:

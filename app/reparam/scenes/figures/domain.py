@@ -23,11 +23,13 @@ from ..fields import (
     DEGREES,
     GIVEN,
     Field,
+    Omega,
     attached_by_r,
     convergence,
     deviation_words,
     deviations,
     given,
+    omega_of,
     over_facets,
     over_spans,
     solution,
@@ -35,9 +37,11 @@ from ..fields import (
     square_pieces,
     torsion,
 )
+from ..handles import COEFFICIENTS, Coefficients, net_handles
 from ..layers import (
     Array,
     Color,
+    ControlNet,
     Figure,
     IsoLines,
     Label,
@@ -46,17 +50,18 @@ from ..layers import (
     Ramp,
     Space,
     Texture,
+    including,
     plane,
 )
 from ..parameters import Presets, Range
 from ..plots import Plot
 from ..registry import scene
+from ..remember import remember
 from ..shading import SQUARE
 
 GRID: Color = (0.35, 0.35, 0.35)
 WAVE = GIVEN[0]
 EXACT = 1e-11  # errors below are those of arithmetic
-OMEGA = plane(-1.5, -1.5, 1.5, 1.5)
 
 
 @scene(
@@ -85,6 +90,7 @@ def domain(
     facets: Annotated[int, Range(1, 32), "facets in u and in v"] = 4,
     contours: Annotated[int, Range(0, 64, 2), "lines of equal values, and one"] = 12,
     lines: Annotated[bool, "the edges of pieces and facets"] = True,
+    points: Coefficients = COEFFICIENTS,
 ) -> Figure:
     if field == "torsion" and (attach == "r" or show == "rates"):
         name, expected = (
@@ -94,12 +100,17 @@ def domain(
         raise ValueError(
             f"{name}: expected {expected}, since torsion is computed; {needs} needs field=given"
         )
-    sought = torsion() if field == "torsion" else given(g)
+    omega = omega_of(points)
+    sought = torsion(omega) if field == "torsion" else given(g, omega)
     seen = (
         over_spans(sought, degree, spans) if attach == "identity" else attached_by_r(sought, spans)
     )
     ramp = Ramp(*seen.range, seen.formula, contours)
-    whole = on_omega(seen, ramp, lines)
+    whole = (
+        *on_omega(seen, ramp, lines),
+        ControlNet(omega.net, palette.CONTROL_NET),
+        net_handles("points", omega.net),
+    )
     if show == "facets":
         faceted = on_omega(over_facets(seen, facets), ramp, lines)
         return Figure(facets_beside(seen, facets, faceted, whole), (sought.words,))
@@ -109,7 +120,7 @@ def domain(
     elif field == "given":
         off = solution(sought, degree, spans).errors(sought.value, sought.gradient)
         told += f":  ‖p − g‖ = {off[0]:.1e},  ‖grad p − grad g‖ = {off[1]:.1e}"
-    on_the_right = Space("physical", OMEGA, whole, title="on Ω = r(square)")
+    on_the_right = Space("physical", room_for(omega), whole, title="on Ω = r(square)")
     if show == "rates":
         spaces = (*rates(convergence(sought), degree, spans), on_the_right)
     else:
@@ -135,9 +146,9 @@ def facets_beside(
     title = f"the map linear over {facets} × {facets} facets"
     return (
         Space("words", plane(0.0, 0.0, 1.0, 1.0), (number,), height=0.16),
-        Space("physical facets", OMEGA, faceted, title=title, below=True),
+        Space("physical facets", room_for(seen.omega), faceted, title=title, below=True),
         replace(bar(*seen.range), below=False),
-        Space("physical", OMEGA, whole, title="the map as it is", below=True),
+        Space("physical", room_for(seen.omega), whole, title="the map as it is", below=True),
     )
 
 
@@ -164,10 +175,16 @@ def rates(errors: Array, degree: int, spans: int) -> tuple[Space, Space]:
     return plots[0], plots[1]
 
 
+@remember
+def room_for(omega: Omega) -> Array:
+    """The bounds of r's own image, and of an edited one if it is larger."""
+    return including(plane(-1.5, -1.5, 1.5, 1.5), omega.net)
+
+
 def on_omega(seen: Field, ramp: Ramp, lines: bool) -> tuple[Layer, ...]:
     """The field on Omega, with the edges of its pieces if asked."""
     edges = IsoLines(seen.net, u=(0.0, 1.0), v=(0.0, 1.0), color=GRID, width=0.6)
-    outline = IsoLines(R, u=(0.0, 1.0), v=(0.0, 1.0), color=palette.INK, width=1.8)
+    outline = IsoLines(seen.omega.net, u=(0.0, 1.0), v=(0.0, 1.0), color=palette.INK, width=1.8)
     patches = Patches(
         seen.net, Texture(seen.map, ramp, seen.exact), domains=square_domains(seen.pieces)
     )
@@ -197,6 +214,11 @@ def claims() -> Iterator[Claim]:
         yield Claim("Ω", statement, [degree + 1.0, float(degree)], rates, 0.08)
     centre = solution(torsion(), 2, 16).at(0.5, 0.5)
     yield Claim("Ω", "torsion, degree 2, 16 spans: p in the centre", 0.52870, centre, 1e-5)
+    inner = COEFFICIENTS.copy()
+    inner[1, 1] = 0.33, -0.25
+    largest = over_spans(torsion(omega_of(inner)), 2, 16).range[1]
+    statement = "c11 moved, another r of the same Ω: the largest p, by samples"
+    yield Claim("Ω", statement, 0.52870, largest, 2e-4)
     linear = given("2x − 3y + 1")
     off = solution(linear, 2, 4).errors(linear.value, linear.gradient)
     statement = "p = 2x − 3y + 1 is among the splines of degree 2: errors of p and of its gradient"
