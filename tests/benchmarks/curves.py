@@ -2,21 +2,26 @@
 
 `steady`: nothing changes; `turned`: the view does, and the points are brought onto the pixels
 anew; `edited`: every control point has changed, and every point is evaluated anew. The other side
-draws the same segments with the same shaders from points that were uploaded once.
+draws the same segments with the same shaders from points that were uploaded once. `by-bound`:
+turned, in as many segments as half a pixel asks for, against the same 64.
 """
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from dataclasses import replace
 from unittest.mock import patch
 
 import numpy as np
 from frames import FROM_ABOVE, frames
+from numpy.typing import NDArray
 
 from reparam.bench import Rows, interleave
 from reparam.geometry.curve import curve_net, curve_points
+from reparam.geometry.curve_levels import Bends
 from reparam.geometry.net import Array
 from reparam.scenes.layers import Curves, Polylines
+from reparam.scenes.shading import HALF_A_PIXEL
 from reparam.snapshot import Studio
 
 SEGMENTS = 64
@@ -43,10 +48,10 @@ def rows(pairs: int) -> Rows:
     strokes, turns = studio.painter.strokes, [0]
     held = [Curves(nets, width=WIDTH)]
 
-    def draw(layer: Curves | Polylines, turned: bool) -> None:
+    def draw(layer: Curves | Polylines, turned: bool, tolerance: float = 0.0) -> None:
         turns[0] += turned
         camera = replace(FROM_ABOVE, half_width=1.05 + 1e-6 * turns[0])
-        strokes.draw(layer, camera, 1.0)
+        strokes.draw(layer, camera, 1.0, tolerance)
         strokes.sweep()
         studio.painter.evaluation.sweep()
 
@@ -54,18 +59,22 @@ def rows(pairs: int) -> Rows:
         held[0] = Curves(nets.copy(), width=WIDTH)
         draw(held[0], False)
 
-    with (
-        patch("reparam.gpu.strokes.segments_needed", lambda *_: SEGMENTS),
-        frames(studio, SIZE) as frame,
-    ):
-        cases = {
-            "steady": (lambda: draw(held[0], False), lambda: draw(static, False)),
-            "turned": (lambda: draw(held[0], True), lambda: draw(static, True)),
-            "edited": (edit, lambda: draw(static, False)),
-        }
+    cases = {
+        "steady": (lambda: draw(held[0], False), lambda: draw(static, False)),
+        "turned": (lambda: draw(held[0], True), lambda: draw(static, True)),
+        "edited": (edit, lambda: draw(static, False)),
+        "by-bound": (lambda: draw(held[0], True, HALF_A_PIXEL), lambda: draw(static, True)),
+    }
+    with frames(studio, SIZE) as frame:
         for name, (ours, other) in cases.items():
             goal = None if name == "edited" else GOAL
-            times = interleave(frame(ours), frame(other), min(pairs, most), warm_up)
+            with nullcontext() if name == "by-bound" else patch.object(Bends, "steps", all_alike):
+                times = interleave(frame(ours), frame(other), min(pairs, most), warm_up)
             yield times.row(
                 f"curves/{count}x{SEGMENTS}/{name}", goal=goal, degree=3, size="512x512"
             )
+
+
+def all_alike(bends: Bends, *_: object) -> NDArray[np.int64]:
+    """As many segments for each curve."""
+    return np.full(len(bends.off), SEGMENTS)

@@ -113,7 +113,6 @@ def test_whatever_is_there_is_before_the_eye(field: float) -> None:
     seen = clip(camera, np.concatenate([POINTS, others]))
     assert seen[:, 3].min() > 0.0
     assert (seen[:, 2] / seen[:, 3]).min() > -1.0  # not cut off by the near plane either
-    assert camera.most_enlarged() >= camera.enlargement(others).max()
 
 
 def test_sight_goes_to_the_eye() -> None:

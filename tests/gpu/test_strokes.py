@@ -12,7 +12,9 @@ from numpy.typing import NDArray
 
 from reparam.geometry.camera import Camera
 from reparam.geometry.curve import circular_arc, curve_net, curve_points
-from reparam.gpu.polylines import curve_links, joined, segments_needed
+from reparam.gpu import curve_parts
+from reparam.gpu.polylines import curve_links, joined
+from reparam.gpu.strokes import Screen, Strokes
 from reparam.gpu.targets import Target
 from reparam.scenes.layers import Curves, Dots, Polylines, Stroked
 from reparam.snapshot import Studio
@@ -23,7 +25,7 @@ SIDE, POINTS = 96, 16
 BLACK = (0.0, 0.0, 0.0)
 
 
-def coverage(studio: Studio, *layers: Stroked, samples: int = 4) -> Array:
+def coverage(studio: Studio, *layers: Stroked, samples: int = 4, tolerance: float = 0.0) -> Array:
     """How much of each pixel black layers cover, bottom row first; model units are pixels."""
     studio.ctx.__enter__()  # current, should there be another
     target = Target(studio.ctx, (SIDE, SIDE), samples, studio.painter.capabilities)
@@ -34,7 +36,7 @@ def coverage(studio: Studio, *layers: Stroked, samples: int = 4) -> Array:
     studio.ctx.enable_only(moderngl.BLEND)
     studio.ctx.blend_func = (moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA)
     for layer in layers:
-        studio.painter.strokes.draw(layer, camera, 1.0)
+        studio.painter.strokes.draw(layer, camera, 1.0, tolerance)
     target.resolve()
     picture = target.pixels()[::-1, :, 0]
     studio.ctx.extra.use()
@@ -145,7 +147,34 @@ def test_links() -> None:
     assert curve_links(chain, 2).tolist() == [-5, 1, 1, 1, 1, 6]
 
 
-def test_more_segments_where_more_is_seen() -> None:
-    assert segments_needed(0.0, (0.0, 1.0), 1e6) == 1
-    few, many = segments_needed(6.0, (0.0, 1.0), 10.0), segments_needed(6.0, (0.0, 1.0), 1000.0)
-    assert few < many == 512
+def waves(count: int) -> Array:
+    """Chains of two cubics side by side, the last one much larger: (2 count, 4, 4)."""
+    wave = np.array([[0, 0], [1, 3], [2, -3], [3, 0]])
+    small = [wave + np.array([3, 0]) * k for k in (0, 1)]
+    places = np.stack([np.arange(count) % 8 * 11 + 4, np.arange(count) // 8 * 5 + 6], -1)
+    nets = (np.array(small) + places[:, None, None]).reshape(-1, 4, 2)
+    nets[-2:] = (np.array(small) * 13.0) + [6.0, 60.0]
+    return curve_net(nets)
+
+
+def test_curves_in_parts_look_the_same(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Few segments for the small, many for the large one; chains stay whole."""
+    net = waves(60)
+    whole = coverage(studio, Curves(net, BLACK, 1.6))
+    monkeypatch.setattr(curve_parts, "WORTH", 0)
+    segments: list[tuple[int, int]] = []
+    draw_part = Strokes._draw_part
+
+    def spy(self: Strokes, layer: Curves, part: Array, steps: int, screen: Screen) -> None:
+        segments.append((steps, len(part)))
+        draw_part(self, layer, part, steps, screen)
+
+    monkeypatch.setattr(Strokes, "_draw_part", spy)
+    parts = coverage(studio, Curves(net, BLACK, 1.6))
+    assert [count for _, count in segments] == [118, 2]
+    assert segments[0][0] < segments[1][0]
+    assert np.abs(parts - whole).max() <= 4.0 / 255.0
+    exact = segments[0][0]
+    segments.clear()
+    coverage(studio, Curves(net.copy(), BLACK, 1.6), tolerance=0.5)
+    assert segments[0][0] < exact / 4

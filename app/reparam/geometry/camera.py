@@ -115,10 +115,6 @@ class Camera:
         """How much larger than in the view plane points (..., 3) are seen, (...,)."""
         return np.asarray(1.0 / (1.0 - (point - self.center) @ self.rotation[2] / self.distance))
 
-    def most_enlarged(self) -> float:
-        """The same of what is as near to the eye as anything that is seen."""
-        return 1.0 + self.half_depth / self.distance
-
     def pixels(self, points: Array, width: float, height: float) -> Array:
         """Pixel coordinates (..., 2), y up from the lower left, of model points (..., 3)."""
         matrix = self.clip_from_model()

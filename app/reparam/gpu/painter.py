@@ -202,11 +202,11 @@ class Painter:
             case Label() | Handles():
                 pass
             case IsoLines() | Dots() | Polylines():
-                self.strokes.draw(layer, camera.nearer(LIFT * layer.lift), unit)
+                self.strokes.draw(layer, camera.nearer(LIFT * layer.lift), unit, display.tolerance)
             case Recorded():
                 self.recordings.draw_layer(layer, camera, unit)
             case _:
-                self.strokes.draw(layer, camera, unit)
+                self.strokes.draw(layer, camera, unit, display.tolerance)
 
     def _draw_words(
         self, figure: Figure, panels: list[Panel], size: tuple[int, int], unit: float

@@ -1,4 +1,4 @@
-"""Points of polylines in numpy: how they are linked, and how finely a curve is to be sampled.
+"""Points of polylines in numpy: how they are linked, and at which parameters curves are sampled.
 
 Points stand one after another, (count, 4) homogeneous, each with a link: 0 where a line begins, 1
 where a segment comes from the point before; of a closed line of n segments the first link is -n
@@ -8,7 +8,6 @@ and the last 1 + n (shaders/lib/polyline.glsl reads them).
 from __future__ import annotations
 
 from functools import lru_cache
-from math import ceil, log2, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,9 +17,6 @@ from ..geometry.evaluate import project
 Array = NDArray[np.float64]
 Values = tuple[float, ...]
 
-COARSEST, FINEST = 8, 1024  # segments of a curve
-FLATNESS = 0.006  # pixels between a curve and its segments
-MANY_CURVES, MOST_FORGIVEN = 256, 32.0  # above so many, so much times that
 MEETING = 1e-9  # of the size of all curves: ends nearer than this are one point
 
 
@@ -53,58 +49,28 @@ def net_legs(net: Array) -> tuple[Array, Array]:
     return np.concatenate(lines), links
 
 
-def curve_links(net: Array, samples: int) -> Array:
-    """Links of curves (curves, n, 4) sampled at `samples` points each: where one ends and the next
-    begins the line runs on, and it is closed where the last one ends at the start of the first.
-    """
+def lines_of(net: Array) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+    """The first curve of each line (k,) that curves (curves, n, 4) make, and whether it is closed:
+    where one ends and the next begins the line runs on, and it is closed where the last one ends at
+    the start of the first."""
     ends = project(net[:, [0, -1]])
     near = MEETING * max(float(np.ptp(ends.reshape(-1, 3), axis=0).max()), 1e-30)
     runs_on = np.abs(ends[1:, 0] - ends[:-1, 1]).max(-1) <= near
-    links = np.ones((len(net), samples))
-    links[0, 0] = 0.0
-    links[1:, 0] = runs_on
-    first = np.flatnonzero(links[:, 0] == 0.0)
+    first = np.append(0, np.flatnonzero(~runs_on) + 1)
     last = np.append(first[1:], len(net)) - 1
-    closed = np.abs(ends[first, 0] - ends[last, 1]).max(-1) <= near
+    return first, np.abs(ends[first, 0] - ends[last, 1]).max(-1) <= near
+
+
+def curve_links(net: Array, samples: int) -> Array:
+    """Links of curves (curves, n, 4) sampled at `samples` points each."""
+    first, closed = lines_of(net)
+    last = np.append(first[1:], len(net)) - 1
+    links = np.ones((len(net), samples))
+    links[first, 0] = 0.0
     first, last = first[closed], last[closed]
     segments = (last - first + 1) * samples - 1
     links[first, 0], links[last, -1] = -segments, 1 + segments
     return links.ravel()
-
-
-def bend(net: Array, axis: int) -> float:
-    """About the largest second derivative, along an axis, of the curves that a net has there.
-
-    The Bezier form's bound d (d-1) max |second difference| where the weights are equal; where
-    they are not, the same with what the weights' own differences add.
-    """
-    points = np.moveaxis(net, axis, 0)
-    degree = len(points) - 1
-    if degree < 2:
-        return 0.0
-    weights = points[..., 3]
-    least = float(weights[weights > 0.0].min())
-    center = project(points[weights > 0.0]).mean(0)
-    moved = points[..., :3] - weights[..., None] * center
-    second = np.linalg.norm(np.diff(moved, 2, axis=0), axis=-1).max()
-    size = np.linalg.norm(moved, axis=-1).max() / least
-    turn = np.abs(np.diff(weights, 2, axis=0)).max() * size
-    uneven = 2.0 if np.ptp(weights) > 1e-12 * weights.max() else 1.0
-    return float(uneven * degree * (degree - 1) * (second + turn) / least)
-
-
-def segments_needed(bend: float, span: tuple[float, float], pixels: float, curves: int = 1) -> int:
-    """Segments, a power of two, for a curve with that second derivative to look smooth where a
-    model unit is `pixels` pixels: a chord of h is off by at most h^2/8 times the derivative.
-
-    Where the layer has very many curves each is small and thin, and may be a little less smooth.
-    """
-    if bend == 0.0:
-        return 1
-    error = bend * pixels * (span[1] - span[0]) ** 2 / 8.0
-    flatness = FLATNESS * min(max(1.0, curves / MANY_CURVES), MOST_FORGIVEN)
-    coarsest = COARSEST if flatness == FLATNESS else 1
-    return int(min(FINEST, max(coarsest, 2 ** ceil(log2(max(1.0, sqrt(error / flatness)))))))
 
 
 @lru_cache(maxsize=256)

@@ -27,18 +27,17 @@ from ..scenes.layers import (
     Stroked,
     Traced,
 )
+from .curve_parts import CurveParts
 from .evaluation import Evaluation, patch_count
 from .kept import Kept
 from .nets import NET_WIDTH
 from .polylines import (
     arrow_parameters,
-    bend,
     curve_links,
     curve_parameters,
     joined,
     line_parameters,
     net_legs,
-    segments_needed,
 )
 from .programs import Programs
 
@@ -48,6 +47,7 @@ DEPTH_BIAS = 2e-3  # lines that lie on a surface come before it
 HANDLE_RINGS = ((1.5, (0.13, 0.13, 0.13)), (0.8, (1.0, 1.0, 1.0)))  # seen on any ground
 ARROW_SIZE = 4.5  # figure units from the middle of the head to its tip
 TEXEL = 16  # bytes of a point
+FLATNESS = 1.0 / 80.0  # pixels between a curve and its segments where no tolerance is asked for
 
 
 @dataclass(frozen=True)
@@ -66,19 +66,21 @@ class Lines:
 
 @dataclass(frozen=True)
 class Screen:
-    """A camera, the viewport (left, bottom, width, height), and the pixels of a figure unit."""
+    """A camera, the viewport (left, bottom, width, height), the pixels of a figure unit, and those
+    that a curve's segments may be off."""
 
     camera: Camera
     region: tuple[int, int, int, int]
     unit: float
+    tolerance: float = FLATNESS
 
     def key(self) -> Hashable:
         """What the points on the pixels depend on."""
         return self.camera.clip_from_model().tobytes(), self.region
 
-    def pixels(self) -> float:
-        """Pixels of a model unit, at most."""
-        return self.region[2] / (2.0 * self.camera.half_width) * self.camera.most_enlarged()
+    def fineness(self) -> tuple[Camera, float, float]:
+        """The camera, pixels of a unit of its view plane, and the tolerance."""
+        return self.camera, self.region[2] / (2.0 * self.camera.half_width), self.tolerance
 
 
 class Strokes:
@@ -91,7 +93,7 @@ class Strokes:
         self._lines: Kept[Lines] = Kept(lambda lines: lines.release())
         self._flat: Kept[moderngl.Texture] = Kept(lambda texture: texture.release())
         self._reach: Kept[moderngl.Buffer] = Kept(lambda buffer: buffer.release())
-        self._bend: Kept[float] = Kept(lambda _: None)
+        self._parts = CurveParts()
         self._rectangle = ctx.buffer(np.array([0, -1, 0, 1, 1, -1, 1, 1], np.float32).tobytes())
         self._square = ctx.buffer(np.array([-1, -1, -1, 1, 1, -1, 1, 1], np.float32).tobytes())
 
@@ -100,7 +102,7 @@ class Strokes:
         self._lines.sweep()
         self._flat.sweep()
         self._reach.sweep()
-        self._bend.sweep()
+        self._parts.sweep()
 
     def forget(self) -> None:
         """Drop what older shaders evaluated."""
@@ -108,9 +110,12 @@ class Strokes:
         self._flat.clear()
         self._reach.clear()
 
-    def draw(self, layer: Stroked | ControlNet, camera: Camera, unit: float) -> None:
-        """A layer into the current viewport; a figure unit is `unit` pixels."""
-        screen = Screen(camera, self._ctx.viewport, unit)
+    def draw(
+        self, layer: Stroked | ControlNet, camera: Camera, unit: float, tolerance: float = 0.0
+    ) -> None:
+        """A layer into the current viewport; a figure unit is `unit` pixels, and the segments of
+        curves are off by at most `tolerance` pixels; 0: by less than is seen."""
+        screen = Screen(camera, self._ctx.viewport, unit, tolerance or FLATNESS)
         match layer:
             case IsoLines():
                 self._draw_iso_lines(layer, screen)
@@ -157,10 +162,7 @@ class Strokes:
 
     def _draw_iso_lines(self, layer: IsoLines, screen: Screen) -> None:
         """The curves, evaluated on the GPU by the evaluator that draws the patches."""
-        bends = [self._bend_of(layer.net, -2)] * bool(layer.u)
-        bends += [self._bend_of(layer.net, -3)] * bool(layer.v)
-        curves = patch_count(layer.net) * (len(layer.u) + len(layer.v))
-        segments = segments_needed(max(bends, default=0.0), layer.span, screen.pixels(), curves)
+        segments = self._parts.of_patches(layer, *screen.fineness())
 
         def evaluate() -> Lines:
             parameters, links = line_parameters(layer.u, layer.v, layer.span, segments)
@@ -174,9 +176,16 @@ class Strokes:
             self._draw_arrows(tips[:, 1], tips[:, 0], screen, layer.color)
 
     def _draw_curves(self, layer: Curves, screen: Screen) -> None:
-        nets = layer.net.reshape(-1, layer.net.shape[-2], 1, 4)
-        bend = self._bend_of(layer.net, -2)
-        segments = segments_needed(bend, layer.span, screen.pixels(), len(nets))
+        for segments, net in self._parts.of_curves(layer, *screen.fineness()):
+            self._draw_part(layer, net, segments, screen)
+        if layer.arrow:
+            ends = arrow_parameters((), (0.0,), layer.span)
+            nets = layer.net.reshape(-1, layer.net.shape[-2], 1, 4)
+            tips = self._evaluation.read(nets, ends).reshape(-1, 2, 4)
+            self._draw_arrows(tips[:, 1], tips[:, 0], screen, layer.color)
+
+    def _draw_part(self, layer: Curves, net: Array, segments: int, screen: Screen) -> None:
+        nets = net.reshape(-1, net.shape[-2], 1, 4)
 
         def evaluate() -> Lines:
             links = (
@@ -186,12 +195,7 @@ class Strokes:
             )
             return self._evaluate(nets, curve_parameters(layer.span, segments), links)
 
-        key = (layer.span, segments)
-        self._stroke(layer.net, key, evaluate, screen, layer.color, layer.width)
-        if layer.arrow:
-            ends = arrow_parameters((), (0.0,), layer.span)
-            tips = self._evaluation.read(nets, ends).reshape(-1, 2, 4)
-            self._draw_arrows(tips[:, 1], tips[:, 0], screen, layer.color)
+        self._stroke(net, (layer.span, segments), evaluate, screen, layer.color, layer.width)
 
     def _draw_polylines(self, layer: Polylines, screen: Screen) -> None:
         def upload() -> Lines:
@@ -254,9 +258,6 @@ class Strokes:
 
         self._stroke(layer.net, "legs", upload, screen, layer.color, layer.width)
         self._stroke(layer.net, "points", upload_dots, screen, layer.color, 2.0 * layer.dot)
-
-    def _bend_of(self, net: Array, axis: int) -> float:
-        return self._bend.get(net, axis, lambda: bend(net, axis))
 
     # Lines ----------------------------------------------------------------------------------
 
