@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from reparam import evaluators
 from reparam.evaluators import GL_AUTO_NORMAL, GL_POINTS, Evaluated, Evaluators
 from reparam.evaluators.maps import TARGETS, Map
+from reparam.geometry.bernstein import bernstein
 from reparam.geometry.evaluate import evaluate, evaluate_derivatives
 from reparam.geometry.normal import projected_derivative, surface_normal
 from reparam.snapshot import Studio
@@ -146,10 +147,19 @@ def fields_of(found: Evaluated) -> dict[str, Single]:
     return dict(zip(FIELDS, arrays, strict=True))
 
 
-def size_of(called: Called, field: str, values: Array) -> float:
-    """The largest coordinate of a field, of its control points and of its values; at least 1."""
-    inputs = np.abs(called.feeds[field].points).max() if field in called.feeds else 0.0
-    return float(max(1.0, inputs, np.abs(values).max(initial=0.0)))
+def sizes_of(called: Called, field: str, values: Array, parameters: Array) -> Array:
+    """Of each vertex (k,): the largest coordinate of the field and of its control points; at
+    least 1. Outside its domain a map is a difference of larger terms: then their sum. Rounding
+    adds up with the order, that of the real one by Horner's scheme too: above 4 in proportion."""
+    sizes = np.maximum(1.0, np.abs(values).max(-1, initial=0.0))
+    if field in called.feeds:
+        map_ = called.feeds[field]
+        shape, where = map_.points.shape, unit(map_, parameters)
+        row, column = (np.abs(bernstein(shape[k] - 1, where[k])) for k in (0, 1))
+        terms = np.einsum("ki,kj,ijc->kc", row, column, np.abs(map_.points))
+        sizes = np.maximum(sizes, np.maximum(np.abs(map_.points).max(), terms.max(-1)))
+        sizes = sizes * max(1.0, max(shape[:2]) / 4.0)
+    return np.asarray(sizes)
 
 
 def compare_fields(
@@ -165,7 +175,8 @@ def compare_fields(
         if field == "normal" and called.auto_normal:
             compare_normals(called, row, found, expected, parameters)
         else:
-            row.record(FIELDS[field], off, POINT_TOLERANCE * size_of(called, field, expected))
+            sizes = sizes_of(called, field, expected, parameters)
+            row.record(FIELDS[field], off, POINT_TOLERANCE * sizes)
     row.rows += len(parameters)
 
 

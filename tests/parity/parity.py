@@ -44,13 +44,18 @@ class Row:
     tolerances: dict[str, float] = field(default_factory=dict)
     complaint: str = ""  # what failed beyond numbers
 
-    def record(self, column: str, errors: Any, tolerance: float) -> None:
-        """Take the largest of some errors into account. NaN is a failure."""
-        values = np.asarray(errors, float).ravel()
-        worst = float(np.where(np.isnan(values), np.inf, values).max(initial=0.0))
+    def record(self, column: str, errors: Any, tolerances: Any) -> None:
+        """Take into account, of some errors, the one largest beside its tolerance (one for all, or
+        each its own). NaN is a failure."""
+        errors, tolerances = np.broadcast_arrays(np.asarray(errors, float), tolerances)
+        values = np.where(np.isnan(errors), np.inf, errors).ravel()
+        if not len(values):
+            values, tolerances = np.zeros(1), np.ones(1)
+        worst = int(np.argmax(values / tolerances.ravel()))
+        error, tolerance = float(values[worst]), float(tolerances.ravel()[worst])
         before = self.errors.get(column, 0.0) / self.tolerances.get(column, 1.0)
-        if column not in self.errors or worst / tolerance >= before:
-            self.errors[column], self.tolerances[column] = worst, tolerance
+        if column not in self.errors or error / tolerance >= before:
+            self.errors[column], self.tolerances[column] = error, tolerance
 
     @property
     def ok(self) -> bool:

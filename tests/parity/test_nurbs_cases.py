@@ -74,3 +74,12 @@ def test_known_wrong_cases_are_held_to_float64(studio: Studio) -> None:
     case = altered("glu_surface_paper_r_tex_r", lambda p: p.pop())
     case["known_wrong"] = "pos: the last strip is missing"
     assert parity.run_case(studio, "wrong", case, "vertex").ok
+
+
+@pytest.mark.parametrize("name", ["glu_curve_rational_circle", "glu_trim_redbook"])
+def test_what_the_renderer_drew_is_refused_in_words(studio: Studio, name: str) -> None:
+    case = deepcopy(CASES[name])
+    case["inputs"]["mode"], case["outputs"] = "renderer", {"verts": {"pos": []}, "errors": []}
+    row = parity.run_case(studio, name, case, "vertex")
+    assert not row.ok
+    assert row.complaint.startswith("expected a case of the tessellator, found mode 'renderer'")

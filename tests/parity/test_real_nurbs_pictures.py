@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from PIL import Image
-from real_glu import TRIM_2, library
+from real_glu import TRIM_2, RealNurbs, library
 from real_opengl import Missing, RealOpenGL
 
 from reparam.evaluators import (
@@ -27,7 +27,8 @@ from reparam.evaluators import (
     Evaluators,
     Light,
 )
-from reparam.evaluators.tessellations import recording
+from reparam.evaluators.grids import primitive_indices
+from reparam.evaluators.tessellations import read_float64, recording, tessellate
 from reparam.geometry.net import Array
 from reparam.scenes import nurbs_programs as book
 from reparam.scenes.figures import redbook_nurbs, redbook_trim
@@ -185,3 +186,21 @@ def test_as_the_real_one_draws_it(studio: Studio, name: str) -> None:
     assert np.count_nonzero(reference.max(-1)) > 10000
     off = np.abs(reference.astype(int) - found).max(-1)
     assert np.mean(off > SEEN) <= program.off
+
+
+@pytest.mark.skipif(library() is None, reason="no libGLU here")
+@pytest.mark.parametrize(("pixels", "share"), [(10.0, 0.76), (25.0, 0.29), (50.0, 0.30)])
+def test_the_hill_takes_that_share_of_libglu_s_triangles(pixels: float, share: float) -> None:
+    """docs/porting.md says so."""
+    found = library()
+    assert found is not None
+    real = RealNurbs(found)
+    real.properties({SAMPLING_TOLERANCE: pixels})
+    real.load(*(matrix.T for matrix in HILL), (0, 0, SIZE, SIZE))
+    real.surface(book.KNOTS, book.KNOTS, book.HILL, (4, 4), GL_MAP2_VERTEX_3)
+    theirs = sum(len(primitive_indices(p.mode, len(p.vertices))[1]) for p in real.primitives)
+    nurb = book.new_renderer("path-length", pixels, "fill", *HILL)
+    hill(nurb)
+    (surface,) = nurb.take()
+    ours = len(tessellate(surface, read_float64).primitives)
+    assert ours / theirs == pytest.approx(share, abs=0.01)
