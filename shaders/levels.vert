@@ -1,7 +1,10 @@
 // How finely each patch is to be tessellated in this view: one vertex a patch, captured by transform
-// feedback.  OpenGL 3.3.  (0, 0) for a patch out of view.
+// feedback.  OpenGL 3.3.  (0, 0) for a patch out of view, or with SOLID one that faces away.
 
 #include "lib/levels.glsl"
+#ifdef SOLID
+#include "lib/facing.glsl"
+#endif
 
 in int patch_index;
 
@@ -28,5 +31,9 @@ void main() {
     Bends sought = flat_bends();
     float unit = 0.0;
 #endif
-    steps = seen.out_of_view ? vec2(0.0) : fewest_steps(seen, tolerance, sought, unit);
+    bool hidden = seen.out_of_view;
+#ifdef SOLID
+    hidden = hidden || faces_away(position_net, patch_index, position_degree, clip_from_model);
+#endif
+    steps = hidden ? vec2(0.0) : fewest_steps(seen, tolerance, sought, unit);
 }

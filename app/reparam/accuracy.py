@@ -4,7 +4,7 @@ picture shows on the surface, and the outline."""
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -72,10 +72,11 @@ def measure(studio: Studio, subject: Subject, size: tuple[int, int]) -> Iterator
         evaluators: tuple[str, ...] = (painter.capabilities.evaluator(studio.evaluator),)
     else:
         evaluators = ("vertex", "tessellation")[: 1 + painter.capabilities.tessellation]
-    layers = [layer for layer in panel.space.layers if isinstance(layer, Patches)]
+    patches = [layer for layer in panel.space.layers if isinstance(layer, Patches)]
+    layers = [replace(layer, solid=False) for layer in patches]  # alone they have another outline
     for number, layer in enumerate(layers, start=1):
         for evaluator in evaluators:
-            tolerance = Tolerance(display.tolerance, size)
+            tolerance = Tolerance(display.tolerance, size, tuple(layers))
             plan = (
                 painter.surfaces.adaptive.plan(layer, panel.camera, evaluator, tolerance)
                 if display.tolerance

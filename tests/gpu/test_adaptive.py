@@ -23,8 +23,11 @@ from reparam.geometry.torus import two_halves
 from reparam.gpu.accuracy import Drawn, deviations
 from reparam.gpu.adaptive import Plan, Tolerance, draws, tiled, uniform_plan
 from reparam.gpu.painter import Painter
-from reparam.scenes.layers import Patches
+from reparam.gpu.targets import Target
+from reparam.scenes.display import Display
+from reparam.scenes.layers import Figure, Patches
 from reparam.snapshot import Studio
+from reparam.subject import open_subject
 
 __all__ = ["counter"]  # the fixture
 
@@ -134,6 +137,48 @@ def test_closed_bodies_show_no_crack(
     camera = frame(points, side, side, View(), True)
     painter.surfaces.draw(opened, camera, evaluator, tolerance)
     assert np.count_nonzero(counts(texture)) > 100
+
+
+@pytest.mark.parametrize("evaluator", EVALUATORS)
+def test_no_crack_between_layers(
+    counter: tuple[Painter, moderngl.Framebuffer, moderngl.Texture], evaluator: str
+) -> None:
+    """A body whose patches are shared out to layers: planned together they are one."""
+    painter, framebuffer, texture = counter
+    nets = bulged_cube(3, rational=True, mixed=True).nets
+    layers = (Patches(nets[::2].copy()), Patches(nets[1::2].copy()))
+    cracks = []
+    for beside in (layers, ()):
+        cracks.append(0)
+        for camera in views(nets, 4, size=texture.size):
+            framebuffer.clear()
+            for layer in layers:
+                tolerance = Tolerance(0.5, texture.size, beside)
+                painter.surfaces.draw(layer, camera, evaluator, tolerance)
+            cracks[-1] += int(np.count_nonzero(counts(texture)))
+    assert cracks[0] == 0
+    assert cracks[1] > 0  # planned apart they show
+
+
+def test_a_solid_body_has_no_hole_where_patches_are_left_out(studio: Studio) -> None:
+    """All that faces the eye is there: the same pixels are covered, but for less than a pixel
+    along the outline."""
+    body = open_subject("fig8").changed("tolerance", 0.5).changed("samples", 1).figure().plain()
+    (space,) = body.spaces
+    layers = [layer for layer in space.layers if isinstance(layer, Patches)]
+    assert all(layer.solid for layer in layers)
+    whole = tuple(replace(layer, solid=False) for layer in layers)
+    display = Display(tolerance=0.5, samples=1, perspective=60.0)
+    target = Target(studio.ctx, SIZE, 1, studio.painter.capabilities)
+    covered = []
+    for shown in (body, Figure((replace(space, layers=whole),))):
+        studio.painter.draw(shown, target, display, plain=True)
+        picture = target.pixels()[::-1]
+        covered.append((picture != picture[0, 0]).any(-1))
+    target.release()
+    studio.ctx.extra.use()
+    assert covered[1].sum() > 15000
+    assert np.count_nonzero(covered[0] != covered[1]) <= 4
 
 
 @pytest.mark.slow

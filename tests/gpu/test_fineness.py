@@ -8,8 +8,11 @@ from truth import random_nets
 
 from reparam.geometry.camera import Camera, View, frame
 from reparam.geometry.evaluate import sample_surface
+from reparam.geometry.facing import faces_away
 from reparam.geometry.levels import bends, fewest_steps, out_of_view, pixels_a_unit
+from reparam.geometry.meshes import MESHES
 from reparam.geometry.net import Array
+from reparam.geometry.surface_spline import surface_spline
 from reparam.gpu.fineness import Fineness
 from reparam.scenes.layers import Patches, Picture, Ramp, Texture
 from reparam.snapshot import Studio
@@ -83,3 +86,18 @@ def test_out_of_view(fineness: Fineness) -> None:
     gone = out_of_view(clip(nets, camera))
     assert ((found == 0).all(-1) == gone).all()
     assert 0.3 < gone.mean() < 0.99
+
+
+@pytest.mark.parametrize("field_of_view", [0.0, 70.0])
+def test_of_a_solid_body_what_faces_away_is_left_out(
+    fineness: Fineness, field_of_view: float
+) -> None:
+    mesh = MESHES["cube"]()
+    nets = surface_spline(mesh.topology, 0.5).nets(mesh.vertices)
+    camera = view(nets, field_of_view=field_of_view)
+    whole = fineness.read(Patches(nets), camera, SIZE, TOLERANCE)
+    found = fineness.read(Patches(nets, solid=True), camera, SIZE, TOLERANCE)
+    left_out, expected = (found == 0).all(-1), faces_away(clip(nets, camera))
+    assert np.count_nonzero(left_out != expected) <= 3  # float32
+    assert (found[~left_out] == whole[~left_out]).all()
+    assert 0.3 < left_out.mean() < 0.6

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import moderngl
 import numpy as np
@@ -28,15 +28,20 @@ FINEST_GRID = 1024  # of the vertex evaluator, which keeps its grids
 SOFTWARE_PATCHES, SOFTWARE_VERTICES = 64, 1 << 16
 
 Ints = NDArray[np.int64]
+Body = tuple[Patches, ...]
 SetCommon = Callable[[Program], None]
 
 
 @dataclass(frozen=True)
 class Tolerance:
-    """How far off a drawn point may be, in pixels of a viewport."""
+    """How far off a drawn point may be, in pixels of a viewport.
+
+    Layers that stand `beside` may share edges: they are planned together.
+    """
 
     pixels: float
     viewport: tuple[int, int]
+    beside: tuple[Patches, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -80,27 +85,54 @@ class Adaptive:
         self._evaluation = evaluation
         self._fineness = Fineness(ctx, programs, evaluation)
         self._software = capabilities.software
-        self._edges: Kept[NDArray[np.int32]] = Kept(lambda _: None)
+        self._edges: Kept[tuple[list[Array], NDArray[np.int32]]] = Kept(lambda _: None)
+        self._plans: Kept[tuple[Body, list[Plan]]] = Kept(lambda _: None, frames=1)
         self._grids: dict[tuple[int, int, bool], tuple[moderngl.Buffer, moderngl.Buffer]] = {}
 
     def sweep(self) -> None:
         """End of a frame."""
         self._edges.sweep()
+        self._plans.sweep()
 
     def plan(self, layer: Patches, camera: Camera, evaluator: str, tolerance: Tolerance) -> Plan:
         """The levels of a layer's patches in this view."""
-        steps = self._fineness.read(layer, camera, tolerance.viewport, tolerance.pixels)
+        beside = [each for each in tolerance.beside if orders(each.net) == orders(layer.net)]
+        body = tuple(beside) if any(each is layer for each in beside) else (layer,)
+        view = replace(camera, bias=0.0).clip_from_model().tobytes(), tolerance.viewport
+        key = (tuple(map(id, body)), view, evaluator, tolerance.pixels)  # `body` is kept with them
+        _, plans = self._plans.get(
+            body[0].net, key, lambda: (body, self._plan(body, camera, evaluator, tolerance))
+        )
+        return next(p for each, p in zip(body, plans, strict=True) if each is layer)
+
+    def _plan(self, body: Body, camera: Camera, evaluator: str, tolerance: Tolerance) -> list[Plan]:
+        viewport, pixels = tolerance.viewport, tolerance.pixels
+        asked = [self._fineness.read(layer, camera, viewport, pixels) for layer in body]
+        steps, owner = np.concatenate(asked), np.repeat(np.arange(len(body)), list(map(len, asked)))
         seen = np.flatnonzero(steps.any(-1))
-        numbers = self._edges.get(layer.net, None, lambda: _numbers(layer.net))
-        finest = FINEST_GRID if evaluator == "vertex" else FINEST
-        steps = np.minimum(steps, finest)[seen]
-        numbers = numbers[seen]
+        numbers = self._numbers([layer.net for layer in body])[seen]
+        steps = np.minimum(steps[seen], FINEST_GRID if evaluator == "vertex" else FINEST)
         edges = edge_levels(steps, numbers)
         inner = grid_levels(steps, edges)
+        tiles = np.ones_like(inner)
         if evaluator == "vertex":
             inner = STEPS[np.searchsorted(STEPS, inner)]
-            return Plan(seen, inner, edges, np.ones_like(inner))
-        return Plan(seen, *in_tiles(inner, edges, numbers, HARDWARE_LEVEL))
+        else:
+            inner, edges, tiles = in_tiles(inner, edges, numbers, HARDWARE_LEVEL)
+        plans, before = [], 0
+        for k, own in enumerate(asked):
+            here = owner[seen] == k
+            plans.append(Plan(seen[here] - before, inner[here], edges[here], tiles[here]))
+            before += len(own)
+        return plans
+
+    def _numbers(self, nets: list[Array]) -> NDArray[np.int32]:
+        """Of the edges of all nets, which are kept with them."""
+
+        def make() -> tuple[list[Array], NDArray[np.int32]]:
+            return nets, edge_numbers(np.concatenate([n.reshape(-1, *n.shape[-3:]) for n in nets]))
+
+        return self._edges.get(nets[0], tuple(map(id, nets)), make)[1]
 
     def draw(
         self,
@@ -229,7 +261,3 @@ def draws(vertices: NDArray[np.int32], software: bool) -> Iterator[tuple[int, in
         count = min(max(fit, 1), SOFTWARE_PATCHES)
         yield first, min(count, len(vertices) - first)
         first += count
-
-
-def _numbers(net: Array) -> NDArray[np.int32]:
-    return edge_numbers(net if net.ndim == 4 else net[None])

@@ -26,15 +26,15 @@ class Fineness:
     def run(
         self, layer: Patches, camera: Camera, viewport: tuple[int, int], tolerance: float
     ) -> moderngl.Buffer:
-        """Steps in u and v of each patch, float32 (patches, 2); (0, 0) for one out of view."""
+        """Steps in u and v of each patch, float32 (patches, 2); (0, 0) for one out of view, or one
+        of a solid body that faces away."""
         # By its own position a map is off as much as the point is: the picture stays in place. What
         # fragments look up by themselves is not off at all.
         texture = layer.texture
         sought = layer.net if texture is None or texture.exact else texture.net
         textured = sought is not layer.net
-        program = self._programs.get(
-            "levels.vert", defines={"TEXTURED": 1} if textured else {}, varyings=("steps",)
-        )
+        defines = ({"TEXTURED": 1} if textured else {}) | ({"SOLID": 1} if layer.solid else {})
+        program = self._programs.get("levels.vert", defines=defines, varyings=("steps",))
         self._evaluation.texture(layer.net).use(NET_UNIT)
         program.set(
             clip_from_model=camera.clip_from_model().T.astype(np.float32).tobytes(),

@@ -189,7 +189,8 @@ class Painter:
             case Patches():
                 viewport = (panel.region.width, panel.region.height)
                 off = display.tolerance
-                fine: Fine = Tolerance(off, viewport) if off else display.level
+                beside = tuple(each for each in panel.space.layers if isinstance(each, Patches))
+                fine: Fine = Tolerance(off, viewport, beside) if off else display.level
                 self.surfaces.draw(
                     layer, camera, evaluator, fine, shading, scale,
                     spatial=panel.space.spatial,

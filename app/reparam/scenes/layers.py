@@ -43,6 +43,8 @@ class Kind:
 class Patches:
     """Tensor-product Bezier patches of one order: a net (m, n, 4) or (patches, m, n, 4).
 
+    A layer is `solid` if it and the solid layers beside it bound a body that is closed, does not
+    meet itself, and is seen from outside, p_u x p_v pointing outwards: what faces away is hidden.
     Patches of one surface share its trim region; `domains` (patches, 4) says where each lies
     in the surface's parameters: u0, u1, v0, v1.
     """
@@ -54,6 +56,7 @@ class Patches:
     kind: Kind = Kind()
     domains: Array | None = None  # None: all are the unit square
     trim: TrimRegion | None = None  # None: the whole surface
+    solid: bool = False
 
     def __post_init__(self) -> None:
         count = self.net.shape[0] if self.net.ndim == 4 else 1

@@ -178,16 +178,17 @@ def patch_layers(
     picture: Picture,
     outline: float = 0.5,
     merged: bool = False,
+    solid: bool = False,
 ) -> tuple[Layer, ...]:
     """The surface with its texture, one layer for each kind of patch, and the patches' edges,
-    unless `outline`, their width, is 0."""
+    unless `outline`, their width, is 0. `solid`: see Patches."""
     maps = maps_of(spline, vertices) if texture == "layout" else None
     nets, maps, facet, index = shown(spline, nets_of(spline, vertices), maps, merged)
     layers: list[Layer] = []
     for size, part, own in parts(facet, nets, maps):
         words = "regular" if size == 4 else f"around {SIDES.get(size, f'{size}-gons')}"
         kind = Kind(palette.FACETS.get(size, palette.FACETS[7]), words)
-        layers.append(Patches(part, Texture(own, picture), lit=True, kind=kind))
+        layers.append(Patches(part, Texture(own, picture), lit=True, kind=kind, solid=solid))
     if outline:
         layers.append(Polylines(outlines(index, nets), palette.INK, outline))
     return tuple(layers)

@@ -63,7 +63,8 @@ def fig8(
     ratios = ratios_of(control.topology, ratio, creases)
     spline = spline_of(control.topology, ratios)
     picture = attachment(checks, "", "repeat", "smooth")
-    surface = patch_layers(spline, control.vertices, texture, picture, 0.4, merged)
+    untouched = not len(moved)  # by a hand a body may be pulled through itself
+    surface = patch_layers(spline, control.vertices, texture, picture, 0.4, merged, untouched)
     handles = (edge_handles(control, ratios), vertex_handles(control)) if turn == 0.0 else ()
     bounds = room_to_turn(nets_of(spline, control.vertices))
     body = Space("body", bounds, (*surface, *handles), True)

@@ -40,7 +40,7 @@ def poles(checks: Checks = 2) -> Figure:
     for name, (words, rows) in BODIES.items():
         nets, lines, at = surface_and_poles(name)
         layers: list[Layer] = [
-            Patches(nets, Texture(IDENTITY, picture), lit=True),
+            Patches(nets, Texture(IDENTITY, picture), lit=True, solid=True),
             Polylines(lines, palette.INK, 0.3),
             *(Dots(points, COLORS[n], 4.0) for n, points in at.items()),
         ]
