@@ -2,7 +2,8 @@
 
 `edit/100000`: a control point of one patch of many; the edit hands in a new net, as a scene does,
 and nobody says what has changed. `edit/spline`: one vertex of a mesh whose surface spline has
-about as many patches, lit and textured; what the scene computes from the vertices is in the frame.
+about as many patches, lit and textured by each patch's (u, v) or by the mesh laid flat; its layers
+are computed from the vertices within the frame.
 """
 
 from __future__ import annotations
@@ -18,7 +19,8 @@ from reparam.geometry.meshes import torus
 from reparam.geometry.net import Array
 from reparam.geometry.surface_spline import SurfaceSpline
 from reparam.scenes.layers import Layer, Patches, Picture
-from reparam.scenes.splines import patch_layers, spline_of
+from reparam.scenes.spline_nets import spline_of
+from reparam.scenes.splines import patch_layers
 from reparam.snapshot import Studio
 
 GOAL = 1.2
@@ -52,11 +54,11 @@ def rows(pairs: int) -> Rows:
     mesh = torus(*MESH)
     spline = spline_of(mesh.topology, np.full(len(mesh.topology.ends), 0.4))
     settings = {"level": LEVEL, "faces": len(mesh.topology.sizes), "patches": len(spline.index)}
-    for evaluator in evaluators:
-        steady, edited = surface_spline(studio, spline, mesh.vertices, evaluator)
+    for texture in ("identity", "layout"):
+        steady, edited = surface_spline(studio, spline, mesh.vertices, texture)
         with frames(studio, SIZE) as drawn:
             times = interleave(drawn(edited), drawn(steady), pairs)
-        yield times.row(f"edit/spline/{evaluator}", goal=GOAL, **settings)
+        yield times.row(f"edit/spline/{texture}", goal=GOAL, **settings)
 
 
 def many_patches(studio: Studio, evaluator: str, lit: bool) -> tuple[Draw, Draw]:
@@ -79,21 +81,21 @@ def many_patches(studio: Studio, evaluator: str, lit: bool) -> tuple[Draw, Draw]
 
 
 def surface_spline(
-    studio: Studio, spline: SurfaceSpline, vertices: Array, evaluator: str
+    studio: Studio, spline: SurfaceSpline, vertices: Array, texture: str
 ) -> tuple[Draw, Draw]:
     """The same of a surface spline, whose vertices are dragged."""
     camera = frame(vertices, *SIZE, View(), True)
     random = np.random.default_rng(3)
 
     def layers() -> Sequence[Layer]:
-        return patch_layers(spline, vertices, "identity", Picture(), outline=0.0)
+        return patch_layers(spline, vertices, texture, Picture(), outline=0.0)
 
     shown = layers()
 
     def steady() -> None:
         for layer in shown:
             assert isinstance(layer, Patches)
-            studio.painter.surfaces.draw(layer, camera, evaluator, LEVEL, spatial=True)
+            studio.painter.surfaces.draw(layer, camera, "vertex", LEVEL, spatial=True)
         end_frame(studio)
 
     def edited() -> None:

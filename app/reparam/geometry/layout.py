@@ -11,16 +11,66 @@ lengths, and what surrounds it is folded down around them.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
 from .mesh import Topology
 from .net import Array
 from .normal import safe_normalize
+from .sparse import Sparse
 from .surface_spline import SurfaceSpline
 
 Indices = NDArray[np.intp]
 Entry = tuple[Indices, Indices, Array]  # faces, vertices of the cut mesh, (s, t) there
+
+
+@dataclass(frozen=True, eq=False)
+class Layout:
+    """How the coefficients of texture nets follow from places in charts, for one spline.
+
+    `first` are the entries of the charts that count, one for each face and vertex it reaches;
+    `stencils` (points, entries) make of them the points of the maps, which `index` (P, m, m) picks.
+    """
+
+    spline: SurfaceSpline
+    first: Indices
+    stencils: Sparse
+    index: Indices
+
+    def places(self, vertices: Array) -> Array:
+        """(s, t) of each entry, lengths of the cut mesh: the part that is not linear."""
+        _, _, places = _entries(self.spline, vertices)
+        return places[self.first]
+
+    def points(self, places: Array) -> Array:
+        """The points of the maps, (K, 4), points (s, t, 0, 1)."""
+        return _flat(self.stencils @ places)
+
+    def points_after(self, points: Array, places: Array, moved: Indices) -> Array:
+        """The points again, bit for bit `points(places)`, after these places alone have moved."""
+        rows = self.stencils.rows_with(moved)
+        points = points.copy()
+        points[rows, :2] = self.stencils.take(rows) @ places
+        return points
+
+
+def layout(spline: SurfaceSpline) -> Layout:
+    """The layout's linear part, the same wherever the vertices are."""
+    h = len(spline.whole.origin)
+    faces, vertex, _ = _entries(spline, np.zeros((spline.stages[0].shape[1], 3)))
+    keys, first = np.unique(faces * h + vertex, return_index=True)
+    rest, points = spline.from_first_cut, spline.stencils.shape[0]
+    # Each patch in its own face's chart: a point is laid flat once for every face that has it.
+    own, index = np.unique(spline.face[:, None, None] * points + spline.index, return_inverse=True)
+    entry, counts = rest.entries(own % points)
+    wanted = np.repeat(own // points, counts) * h + rest.columns[entry]
+    found = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
+    assert (keys[found] == wanted).all(), "a stencil reaches beyond its face's chart"
+    rows = np.repeat(np.arange(len(own)), counts)
+    stencils = Sparse(rows, found, rest.values[entry], (len(own), len(keys)))
+    return Layout(spline, first, stencils, index.reshape(spline.index.shape))
 
 
 def layout_nets(spline: SurfaceSpline, vertices: Array) -> Array:
@@ -28,41 +78,42 @@ def layout_nets(spline: SurfaceSpline, vertices: Array) -> Array:
 
     Over all patches their area is as large as under the identity, where each has 2 x 2.
     """
-    charts = _Charts(spline.whole, spline.cut_vertices(vertices))
-    keys, places = charts.table(int(spline.face.max()) + 1)
-    nets = _apply(spline, keys, places)
-    flat = np.zeros((*nets.shape[:-1], 4))
-    flat[..., :2], flat[..., 3] = nets, 1.0
-    corners = flat[:, [0, -1, -1, 0], [0, 0, -1, -1], :2]
+    of = layout(spline)
+    nets = of.points(of.places(vertices))[of.index]
+    nets[..., :2] *= identity_scale(nets)
+    return nets
+
+
+def identity_scale(nets: Array) -> float:
+    """By what texture nets (P, m, m, 4) are to be scaled to have the identity's area, 4 a patch."""
+    corners = nets[:, [0, -1, -1, 0], [0, 0, -1, -1], :2]
     after = np.roll(corners, -1, 1)
     area = np.abs((corners[..., 0] * after[..., 1] - corners[..., 1] * after[..., 0]).sum() / 2)
-    flat[..., :2] *= (4.0 * len(nets) / area) ** 0.5 if area > 0.0 else 1.0
-    return flat
+    return float((4.0 * len(nets) / area) ** 0.5) if area > 0.0 else 1.0
 
 
-def _apply(spline: SurfaceSpline, keys: Indices, places: Array) -> Array:
-    """The stencils at every coefficient of every patch, each patch in its own face's chart."""
-    rest, points = spline.from_first_cut, spline.index.reshape(-1)
-    entry, counts = rest.entries(points)
-    rows = np.repeat(np.arange(len(points)), counts)
-    face = spline.face[rows // spline.index[0].size]
-    wanted = face * rest.shape[1] + rest.columns[entry]
-    found = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
-    assert (keys[found] == wanted).all(), "a stencil reaches beyond its face's chart"
-    columns = [np.bincount(rows, rest.values[entry] * c[found], len(points)) for c in places.T]
-    return np.stack(columns, -1).reshape(*spline.index.shape, 2).astype(np.float64)
+def _flat(places: Array) -> Array:
+    points = np.zeros((len(places), 4))
+    points[:, :2], points[:, 3] = places, 1.0
+    return points
+
+
+def _entries(spline: SurfaceSpline, vertices: Array) -> Entry:
+    """All entries of all charts; which there are depends on the topology alone."""
+    charts = _Charts(spline.whole, spline.cut_vertices(vertices))
+    return charts.entries(int(spline.face.max()) + 1)
 
 
 class _Charts:
-    """All charts at once: entry after entry, the first of a place counts."""
+    """All charts at once: entry after entry, the first of a face's vertex counts."""
 
     def __init__(self, t: Topology, cut_vertices: Array) -> None:
         self.t = t
         self.space = cut_vertices  # (H, 3): vertex h of the cut mesh is corner h
         self.count = len(t.origin)
 
-    def table(self, faces: int) -> tuple[Indices, Array]:
-        """Sorted keys face * H + vertex, and (s, t) at each, for the first `faces` faces."""
+    def entries(self, faces: int) -> Entry:
+        """Faces, vertices of the cut mesh and (s, t) there, for the first `faces` faces."""
         t = self.t
         h = np.flatnonzero(t.face < faces)
         face = t.face[h]
@@ -79,9 +130,8 @@ class _Charts:
         beside = np.zeros((self.count, 2))
         beside[h] = c
         entries += self._around(h, face, a, beside[t.preceding[h]], d)
-        faces_of, vertex = (np.concatenate([e[k] for e in entries]) for k in (0, 1))
-        keys, first = np.unique(faces_of * self.count + vertex, return_index=True)
-        return keys, np.concatenate([e[2] for e in entries])[first]
+        faces_of, vertex, places = (np.concatenate(part) for part in zip(*entries, strict=True))
+        return faces_of, vertex, places
 
     def _flattened(self, h: Indices) -> Array:
         """Corners in the Newell plane of their face, about its centroid, lengths kept."""

@@ -13,10 +13,9 @@ from ..geometry.bernstein import bernstein
 from ..geometry.body import Body, body, face_patches
 from ..geometry.distortion import sampled_distortions
 from ..geometry.evaluate import project
-from ..geometry.layout import layout_nets
 from ..geometry.mesh import Mesh, Topology
 from ..geometry.meshes import MESHES
-from ..geometry.surface_spline import SurfaceSpline, edge_ratios, surface_spline
+from ..geometry.surface_spline import SurfaceSpline
 from . import palette
 from .layers import (
     Array,
@@ -34,6 +33,7 @@ from .layers import (
 from .merged import facets_of, merging_of, shown
 from .parameters import Points, Range
 from .remember import remember
+from .spline_nets import maps_of, nets_of, scaled
 
 Ratio = Annotated[float, Range(0.02, 0.98, 0.02), "blend ratio: to 0 a sharp edge, 1/2 the spline"]
 Creases = Annotated[Array, Points((None, 3), "ratios of single edges: vertex, vertex, ratio")]
@@ -49,7 +49,6 @@ for _array in (NO_CREASES, NONE_MOVED, IDENTITY):
 OF_FACE, OF_EDGE, OF_VERTEX = (palette.rgb(h) for h in ("A9D6F0", "F6DDB0", "8FD0BC"))
 SIDES = {3: "triangles", 5: "pentagons", 6: "hexagons", 7: "heptagons", 8: "octagons"}
 LEAST, MOST = 0.02, 0.98  # ratios that a hand can give
-FEW = 8  # a part of the vertices, so small that the rest need not be computed again
 MANY = 512  # patches: from here on fewer samples tell how a texture map lies on them
 OUTLINE_POINTS = 8_000  # of all outlines of a body together
 
@@ -67,49 +66,6 @@ def moved_mesh(control: Mesh, moved: Array, name: str = "moved") -> Mesh:
             raise ValueError(f"{name}: {expected}, found {index:g}")
         vertices[int(index)] = point
     return Mesh(vertices, control.topology)
-
-
-@remember
-def ratios_of(t: Topology, ratio: float, creases: Array) -> Array:
-    """The ratio of each edge."""
-    return edge_ratios(t, ratio, creases)
-
-
-@remember
-def spline_of(t: Topology, ratios: Array) -> SurfaceSpline:
-    """The spline; as long as the ratios are the same, moving a vertex is one sparse product."""
-    return surface_spline(t, ratios)
-
-
-@remember
-def nets_of(spline: SurfaceSpline, vertices: Array) -> Array:
-    """The control nets."""
-    return points_of(spline, vertices)[spline.index]
-
-
-_last: list[tuple[SurfaceSpline, Array, Array]] = []  # the points made before, from what
-
-
-def points_of(spline: SurfaceSpline, vertices: Array) -> Array:
-    """The points of the nets; after an edit of few vertices what these touch is made anew."""
-    points = None
-    if _last and _last[0][0] is spline:
-        _, before, points_before = _last[0]
-        moved = np.flatnonzero((before != vertices).any(-1))
-        if len(moved) <= len(vertices) // FEW:
-            points = (
-                spline.points_after(points_before, vertices, moved) if len(moved) else points_before
-            )
-    if points is None:
-        points = spline.points(vertices)
-    _last[:] = [(spline, vertices, points)]
-    return points
-
-
-@remember
-def maps_of(spline: SurfaceSpline, vertices: Array) -> Array:
-    """The layout as texture nets."""
-    return layout_nets(spline, vertices)
 
 
 def mesh_layers(control: Mesh, color: Color) -> tuple[Layer, ...]:
@@ -182,7 +138,10 @@ def patch_layers(
 ) -> tuple[Layer, ...]:
     """The surface with its texture, one layer for each kind of patch, and the patches' edges,
     unless `outline`, their width, is 0. `solid`: see Patches."""
-    maps = maps_of(spline, vertices) if texture == "layout" else None
+    maps = None
+    if texture == "layout":
+        maps = maps_of(spline, vertices)
+        picture = scaled(picture, maps)
     nets, maps, facet, index = shown(spline, nets_of(spline, vertices), maps, merged)
     layers: list[Layer] = []
     for size, part, own in parts(facet, nets, maps):

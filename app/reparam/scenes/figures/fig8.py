@@ -19,6 +19,7 @@ from ..merged import Merged, merging_of
 from ..parameters import Range
 from ..registry import scene
 from ..remember import remember
+from ..spline_nets import nets_of, ratios_of, spline_of
 from ..splines import (
     NO_CREASES,
     NONE_MOVED,
@@ -31,10 +32,7 @@ from ..splines import (
     distortion_words,
     edge_handles,
     moved_mesh,
-    nets_of,
     patch_layers,
-    ratios_of,
-    spline_of,
     vertex_handles,
 )
 

@@ -22,6 +22,7 @@ from ..merged import Merged
 from ..mesh_files import mesh_of
 from ..parameters import MeshFile, Presets
 from ..registry import scene
+from ..spline_nets import maps_of, ratios_of, spline_of
 from ..splines import (
     IDENTITY,
     NO_CREASES,
@@ -40,13 +41,10 @@ from ..splines import (
     distortion_words,
     edge_handles,
     edges_of,
-    maps_of,
     mesh_layers,
     moved_mesh,
     net_layers,
     patch_layers,
-    ratios_of,
-    spline_of,
     vertex_handles,
 )
 

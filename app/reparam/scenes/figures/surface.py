@@ -31,6 +31,7 @@ from ..mesh_files import mesh_of
 from ..parameters import Points
 from ..registry import scene
 from ..remember import remember
+from ..spline_nets import ratios_of, spline_of
 from ..splines import (
     NO_CREASES,
     NONE_MOVED,
@@ -42,8 +43,6 @@ from ..splines import (
     edges_of,
     moved_mesh,
     patch_layers,
-    ratios_of,
-    spline_of,
     vertex_handles,
 )
 
