@@ -22,6 +22,13 @@ from reparam.scenes.spline_nets import maps_of, nets_of
 
 GOAL = 3.0
 
+ACCOUNT = """
+The product is of the whole matrix; an edit touches few of its rows, so from some hundred faces on
+it costs less than our own product, and about what SciPy's does. In the smallest mesh the product
+takes a twentieth of a millisecond and an edit a fifth of one: calls of numpy, not arithmetic.
+Laying the mesh flat is not linear in the vertices, and is done for all faces.
+"""
+
 
 def rows(pairs: int) -> Rows:
     """ours / the sparse product, for meshes of more and more faces."""

@@ -27,8 +27,8 @@ def test_edits_leave_what_is_made_anew(name: str) -> None:
         for few, all_before in ((nets, before), (maps, before_maps)):
             share = (few != all_before).any((1, 2, 3)).mean()
             assert 0.0 < share < (0.5 if name == "torus" else 1.0)
-        spline_nets._last.clear()
-        spline_nets._last_map.clear()
+        spline_nets._nets.forget()
+        spline_nets._maps.forget()
         assert (nets == nets_of(spline, vertices.copy())).all()
         assert (maps == maps_of(spline, vertices.copy())).all()
 

@@ -86,9 +86,9 @@ def layout_nets(spline: SurfaceSpline, vertices: Array) -> Array:
 
 def identity_scale(nets: Array) -> float:
     """By what texture nets (P, m, m, 4) are to be scaled to have the identity's area, 4 a patch."""
-    corners = nets[:, [0, -1, -1, 0], [0, 0, -1, -1], :2]
-    after = np.roll(corners, -1, 1)
-    area = np.abs((corners[..., 0] * after[..., 1] - corners[..., 1] * after[..., 0]).sum() / 2)
+    a, b, c, d = (nets[:, i, j, :2] for i, j in ((0, 0), (-1, 0), (-1, -1), (0, -1)))
+    across, along = c - a, d - b  # the diagonals
+    area = abs(float((across[:, 0] * along[:, 1] - across[:, 1] * along[:, 0]).sum())) / 2.0
     return float((4.0 * len(nets) / area) ** 0.5) if area > 0.0 else 1.0
 
 

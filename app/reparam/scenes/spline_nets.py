@@ -7,8 +7,11 @@ them, bit for bit as all of them, and the nets that come out differ from the las
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import reduce
+from typing import Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..geometry.layout import Layout, identity_scale, layout
 from ..geometry.mesh import Topology
@@ -31,29 +34,66 @@ def spline_of(t: Topology, ratios: Array) -> SurfaceSpline:
     return surface_spline(t, ratios)
 
 
+class Linear(Protocol):
+    """Nets whose points are stencils over rows: over a mesh's vertices, over places in charts."""
+
+    @property
+    def index(self) -> NDArray[np.intp]:
+        """Which points the nets pick, (P, m, m)."""
+        ...
+
+    def points(self, rows: Array, /) -> Array:
+        """All points."""
+        ...
+
+    def points_after(self, points: Array, rows: Array, moved: NDArray[np.intp], /) -> Array:
+        """The points after some rows have moved."""
+        ...
+
+
+class Dragged:
+    """The nets that were made last, and from what."""
+
+    def __init__(self) -> None:
+        self._last: tuple[Linear, Array, Array, Array] | None = None
+
+    def forget(self) -> None:
+        """Make the next ones anew."""
+        self._last = None
+
+    def nets(self, of: Linear, rows: Array) -> Array:
+        """The nets (P, m, m, 4) over these rows."""
+        points = nets = None
+        if self._last and self._last[0] is of:
+            _, before, points_before, nets_before = self._last
+            moved = np.flatnonzero(different(before, rows))
+            if not len(moved):
+                return nets_before
+            if len(moved) <= len(rows) // FEW:
+                points = of.points_after(points_before, rows, moved)
+                touched = np.flatnonzero(different(points_before, points)[of.index])
+                patches = np.unique(touched // of.index[0].size)
+                nets = nets_before.copy()
+                nets[patches] = points[of.index[patches]]
+        if points is None or nets is None:
+            points = of.points(rows)
+            nets = points[of.index]
+        self._last = (of, rows, points, nets)
+        return nets
+
+
+def different(before: Array, after: Array) -> NDArray[np.bool_]:
+    """Which rows (k, d) differ."""
+    return reduce(np.logical_or, (before != after).T)
+
+
+_nets, _maps = Dragged(), Dragged()
+
+
 @remember
 def nets_of(spline: SurfaceSpline, vertices: Array) -> Array:
     """The control nets."""
-    return points_of(spline, vertices)[spline.index]
-
-
-_last: list[tuple[SurfaceSpline, Array, Array]] = []  # the points made before, from what
-
-
-def points_of(spline: SurfaceSpline, vertices: Array) -> Array:
-    """The points of the nets; after an edit of few vertices what these touch is made anew."""
-    points = None
-    if _last and _last[0][0] is spline:
-        _, before, points_before = _last[0]
-        moved = np.flatnonzero((before != vertices).any(-1))
-        if len(moved) <= len(vertices) // FEW:
-            points = (
-                spline.points_after(points_before, vertices, moved) if len(moved) else points_before
-            )
-    if points is None:
-        points = spline.points(vertices)
-    _last[:] = [(spline, vertices, points)]
-    return points
+    return _nets.nets(spline, vertices)
 
 
 @remember
@@ -66,24 +106,7 @@ def layout_of(spline: SurfaceSpline) -> Layout:
 def maps_of(spline: SurfaceSpline, vertices: Array) -> Array:
     """The layout as texture nets, in lengths of the mesh: an edit changes only those it touches."""
     of = layout_of(spline)
-    return map_points(of, of.places(vertices))[of.index]
-
-
-_last_map: list[tuple[Layout, Array, Array]] = []  # the points made before, from what places
-
-
-def map_points(of: Layout, places: Array) -> Array:
-    """The points of the maps; after an edit what it touches is made anew."""
-    points = None
-    if _last_map and _last_map[0][0] is of:
-        _, before, points_before = _last_map[0]
-        moved = np.flatnonzero((before != places).any(-1))
-        if len(moved) <= len(places) // FEW:
-            points = of.points_after(points_before, places, moved) if len(moved) else points_before
-    if points is None:
-        points = of.points(places)
-    _last_map[:] = [(of, places, points)]
-    return points
+    return _maps.nets(of, of.places(vertices))
 
 
 @remember

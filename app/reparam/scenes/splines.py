@@ -183,8 +183,11 @@ def parts(
     facet: NDArray[np.intp], nets: Array, maps: Array | None
 ) -> list[tuple[int, Array, Array]]:
     """Facet size, nets and texture nets of each kind of patch."""
+    sizes = np.unique(facet).tolist()
+    if len(sizes) == 1:
+        return [(sizes[0], nets, IDENTITY if maps is None else maps)]
     found = []
-    for size in np.unique(facet).tolist():
+    for size in sizes:
         chosen = facet == size
         found.append((size, nets[chosen], IDENTITY if maps is None else maps[chosen]))
     return found
