@@ -86,6 +86,7 @@ def test_linked_and_exported() -> None:
     assert parts_of(by_r)[0].picture is None
 
 
+@pytest.mark.slow
 def test_rates_as_plots() -> None:
     figure = subject("field=given", "g=x", "show=rates", "degree=1", "spans=4").figure()
     assert [space.name for space in figure.spaces] == ["plot 0", "plot 1", "physical"]

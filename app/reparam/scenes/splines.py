@@ -36,8 +36,10 @@ from .remember import remember
 from .spline_nets import maps_of, nets_of, scaled
 
 Ratio = Annotated[float, Range(0.02, 0.98, 0.02), "blend ratio: to 0 a sharp edge, 1/2 the spline"]
-Creases = Annotated[Array, Points((None, 3), "ratios of single edges: vertex, vertex, ratio")]
-Moved = Annotated[Array, Points((None, 4), "vertices moved: vertex, x, y, z")]
+Creases = Annotated[
+    Array, Points((None, 3), "ratios of single edges: vertex, vertex, from 0, ratio")
+]
+Moved = Annotated[Array, Points((None, 4), "vertices moved: vertex, from 0, x, y, z")]
 Map = Annotated[
     Literal["layout", "identity"],
     "the mesh laid flat, by the same stencils, or each patch's (u, v)",
