@@ -70,12 +70,30 @@ vec4 mixed_derivative(sampler2D net, int at, ivec2 i, ivec2 degree) {
     return sum;
 }
 
-// x and y from the middle of the net, whose half extent is reach.
-float size(vec4 derivative, float reach) {
-    return length(derivative.xy) + reach * abs(derivative.w);
+// A bound from below of w where all weights are positive: the least when degrees are raised by one.
+float least_weight(sampler2D net, int first, ivec2 degree, mat4 transform) {
+    float least = 1e30;
+    int width = degree.y + 1;
+    for (int i = 0; i <= degree.x + 1; ++i)
+        for (int j = 0; j <= degree.y + 1; ++j) {
+            vec2 share = vec2(i, j) / vec2(degree + 1);
+            vec4 mean = vec4(0.0);
+            for (int k = 0; k < 4; ++k) {
+                ivec2 at = clamp(ivec2(i, j) - ivec2(k / 2, k % 2), ivec2(0), degree);
+                vec2 part = mix(share, 1.0 - share, equal(ivec2(k / 2, k % 2), ivec2(0)));
+                mean += part.x * part.y * control_point(net, first + at.x * width + at.y);
+            }
+            least = min(least, (transform * mean).w);
+        }
+    return least;
 }
 
-float either(vec4 a, vec4 b, float reach) {
+// x and y from the middle of the net, whose half extent is reach.
+float size(vec4 derivative, vec2 reach) {
+    return length(abs(derivative.xy) + reach * abs(derivative.w));
+}
+
+float either(vec4 a, vec4 b, vec2 reach) {
     return max(size(a + b, reach), size(a - b, reach));
 }
 
@@ -84,6 +102,7 @@ Bends bends(sampler2D net, int patch_index, ivec2 degree, mat4 transform, vec2 s
     Bends s = flat_bends();
     vec2 low = vec2(1e30), high = vec2(-1e30);
     s.least = 1e30;
+    float most = 0.0;
     bvec3 above = bvec3(true), below = bvec3(true);
     for (int k = 0; k < count; ++k) {
         vec4 p = transform * control_point(net, first + k);
@@ -91,12 +110,15 @@ Bends bends(sampler2D net, int patch_index, ivec2 degree, mat4 transform, vec2 s
         low = min(low, place);
         high = max(high, place);
         s.least = min(s.least, p.w);
+        most = max(most, p.w);
         above = bvec3(above.x && p.x > p.w, above.y && p.y > p.w, above.z && p.z > p.w);
         below = bvec3(below.x && p.x < -p.w, below.y && p.y < -p.w, below.z && p.z < -p.w);
     }
     s.out_of_view = s.least > 0.0 && (any(above) || any(below));
     s.extent = length((high - low) * scale);
-    float reach = s.extent * 0.5;
+    vec2 reach = (high - low) * scale * 0.5;
+    if (most > s.least && s.least > 0.0)
+        s.least = least_weight(net, first, degree, transform);
     mat4 centred = mat4(scale.x, 0.0, 0.0, 0.0, 0.0, scale.y, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0,
                         -(low + high) * 0.5 * scale, 0.0, 1.0) * transform;
     for (int i = 0; i <= degree.x; ++i)

@@ -16,6 +16,7 @@ from reparam.geometry.levels import (
     edge_bend,
     fewest_steps,
     isosceles,
+    least_weight,
     mixed_derivative,
     out_of_view,
     pixels_a_unit,
@@ -165,7 +166,8 @@ def test_edges_of_any_slope_are_bounded(net: Array) -> None:
         mixed_derivative(centred),
         second_derivative(centred, -2),
     )
-    reach = s.extent / 2.0
+    reach = np.ptp(middle, axis=0) / 2.0
+    assert np.hypot(*reach) == pytest.approx(float(s.extent) / 2.0)
     for t in np.geomspace(1e-3, 1e3, 40):
         for x, y in (
             (1.0, t),
@@ -176,9 +178,23 @@ def test_edges_of_any_slope_are_bounded(net: Array) -> None:
             (1.0, 0.0),
             (0.0, t),
         ):
-            bent = x * x * a + 2.0 * x * y * b + y * y * c
-            length = np.hypot(bent[..., 0], bent[..., 1]) + reach * np.abs(bent[..., 3])
+            bent = np.abs(x * x * a + 2.0 * x * y * b + y * y * c)
+            length = np.hypot(*np.moveaxis(bent[..., :2] + reach * bent[..., 3:], -1, 0))
             assert length.max() <= float(edge_bend(s, np.array(t))) * (1.0 + 1e-9)
+
+
+def test_the_least_weight_is_near_the_truth() -> None:
+    arc = np.array([1.0, 0.5**0.5, 1.0])
+    weights = arc[:, None] * arc
+    least = evaluate(np.repeat(weights[..., None], 4, -1), 0.5, 0.5)[3]
+    assert 0.85 * least < float(least_weight(weights)) < least
+    random = np.random.default_rng(5)
+    for _ in range(20):
+        weights = random.uniform(0.1, 2.0, random.integers(1, 6, 2))
+        t = np.linspace(0.0, 1.0, 12)
+        w = evaluate(np.repeat(weights[..., None], 4, -1), *np.meshgrid(t, t))[..., 3]
+        assert weights.min() <= float(least_weight(weights)) <= w.min() + 1e-12
+    assert float(least_weight(-weights)) < 0.0
 
 
 def test_isosceles() -> None:

@@ -99,14 +99,14 @@ def bends(nets: Array, scale: tuple[float, float]) -> Bends:
     centred = nets.copy()
     centred[..., :2] -= ((low + high) / 2.0)[..., None, None, :] * nets[..., 3:]
     centred[..., :2] *= np.array(scale)
-    half = np.hypot(*np.moveaxis((high - low) * np.array(scale) / 2.0, -1, 0))
-    reach = half[..., None, None]
+    reach = ((high - low) * np.array(scale) / 2.0)[..., None, None, :]
     a, c = second_derivative(centred, -3), second_derivative(centred, -2)
     b = mixed_derivative(centred)
 
     def largest(derivative: Array) -> Array:
-        x, y, _, w = np.moveaxis(derivative, -1, 0)
-        return np.asarray((np.hypot(x, y) + reach * np.abs(w)).max((-2, -1)))
+        size = np.abs(derivative)
+        along = size[..., :2] + reach * size[..., 3:]
+        return np.asarray(np.hypot(along[..., 0], along[..., 1]).max((-2, -1)))
 
     def either(x: Array, y: Array, z: Array | None = None) -> Array:
         rest = x if z is None else x + z
@@ -125,9 +125,24 @@ def bends(nets: Array, scale: tuple[float, float]) -> Bends:
             [either(a, (t[k] + t[k + 1]) * b, t[k] * t[k + 1] * c) for k in range(2)], -1
         ),
         np.stack([np.abs(d[..., 3]).max((-2, -1)) for d in (a, b, c)], -1),
-        nets[..., 3].min((-2, -1)),
-        2.0 * half,
+        least_weight(nets[..., 3]),
+        2.0 * np.hypot(reach[..., 0, 0, 0], reach[..., 0, 0, 1]),
     )  # fmt: skip
+
+
+def least_weight(weights: Array) -> Array:
+    """A bound (...,) from below of w over patches with weights (..., m, n), not positive if one of
+    them is not: the least weight when the degrees are raised by one, which is nearer to the truth.
+    """
+
+    def raised(values: Array) -> Array:
+        padded = np.concatenate([values[..., :1], values, values[..., -1:]], -1)
+        share = np.arange(values.shape[-1] + 1) / values.shape[-1]
+        return np.asarray(share * padded[..., :-1] + (1.0 - share) * padded[..., 1:])
+
+    least = weights.min((-2, -1))
+    both = raised(raised(weights).swapaxes(-1, -2))
+    return np.asarray(np.where(least > 0.0, both.min((-2, -1)), least))
 
 
 def isosceles(base: Array, side: Array) -> Array:
