@@ -37,6 +37,15 @@ from reparam.snapshot import Studio
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "parity"))
 
+ACCOUNT = """
+Where the goal is missed, this is why (processor time on llvmpipe, all threads together): the real
+one takes about 22 ms for what is as accurate as ours, 14 of them for its vertices, which it makes
+one by one. Ours takes 9 ms. The same number of triangles from a static mesh, evaluated never and
+drawn at once, takes 5.3: that is the rasteriser, and 4.1 would be the ratio with it alone. The rest
+is 1 ms to plan, and some 24 draws, one for each pair of levels, of patches evaluated anew in
+each frame.
+"""
+
 PIECES, ORDER = 37, 4
 SIZE = (512, 512)
 PIXELS = 0.5

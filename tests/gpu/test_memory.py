@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import ctypes
 import os
+import platform
+import resource
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -42,6 +45,24 @@ def test_a_morph_of_many_frames_leaves_memory_as_it_was(studio: Studio, evaluato
     finally:
         studio.evaluator = None
     assert resident() - before < 8 * MIB
+
+
+@pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="the GNU C library's mallopt")
+def test_memory_for_a_software_rasteriser_is_kept(studio: Studio) -> None:
+    """What it frees after a frame is there for the next one, without page faults."""
+    if not studio.painter.capabilities.software:
+        pytest.skip("not a software rasteriser")
+    libc, size = ctypes.CDLL(None), 100_000
+    libc.malloc.restype, libc.free.argtypes = ctypes.c_void_p, [ctypes.c_void_p]
+    faults = []
+    for _ in range(3):
+        blocks = [libc.malloc(size) for _ in range(200)]
+        for block in blocks:
+            ctypes.memset(block, 1, size)
+        for block in blocks:
+            libc.free(block)
+        faults.append(resource.getrusage(resource.RUSAGE_SELF).ru_minflt)
+    assert faults[2] - faults[1] < 200
 
 
 @pytest.fixture

@@ -41,7 +41,7 @@ def pack_instances(net: NDArray[np.float64], components: int) -> NDArray[np.floa
     points = net.reshape(-1, *net.shape[-3:])[..., :components]
     count = points[0].size
     packed = np.zeros((len(points), -(-count // 4) * 4), np.float32)
-    packed[:, :count] = points.reshape(len(points), -1)
+    packed[:, :count].reshape(points.shape)[...] = points  # a view, filled in one pass
     return packed
 
 
