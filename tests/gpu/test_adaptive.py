@@ -25,9 +25,8 @@ from reparam.gpu.adaptive import Plan, Tolerance, draws, tiled, uniform_plan
 from reparam.gpu.painter import Painter
 from reparam.gpu.targets import Target
 from reparam.scenes.display import Display
-from reparam.scenes.layers import Figure, Patches
+from reparam.scenes.layers import Figure, Patches, Space
 from reparam.snapshot import Studio
-from reparam.subject import open_subject
 
 __all__ = ["counter"]  # the fixture
 
@@ -56,7 +55,7 @@ def views(nets: Array, count: int, zoom: float = 1.0, size: tuple[int, int] = SI
 
 @pytest.mark.parametrize("evaluator", EVALUATORS)
 @pytest.mark.parametrize("name", BODIES)
-@pytest.mark.parametrize("zoom", [1.0, 5.0])
+@pytest.mark.parametrize("zoom", [1.0, 3.0])
 def test_every_fragment_is_within_the_tolerance(
     studio: Studio, evaluator: str, name: str, zoom: float
 ) -> None:
@@ -163,21 +162,21 @@ def test_no_crack_between_layers(
 def test_a_solid_body_has_no_hole_where_patches_are_left_out(studio: Studio) -> None:
     """All that faces the eye is there: the same pixels are covered, but for less than a pixel
     along the outline."""
-    body = open_subject("fig8").changed("tolerance", 0.5).changed("samples", 1).figure().plain()
-    (space,) = body.spaces
-    layers = [layer for layer in space.layers if isinstance(layer, Patches)]
-    assert all(layer.solid for layer in layers)
-    whole = tuple(replace(layer, solid=False) for layer in layers)
+    mesh = MESHES["cube"]()
+    nets = surface_spline(mesh.topology, 0.5).nets(mesh.vertices)
+    bounds = sample_surface(nets)
     display = Display(tolerance=0.5, samples=1, perspective=60.0)
     target = Target(studio.ctx, SIZE, 1, studio.painter.capabilities)
     covered = []
-    for shown in (body, Figure((replace(space, layers=whole),))):
+    for solid in (True, False):
+        layers = (Patches(nets[::2], solid=solid), Patches(nets[1::2], solid=solid))
+        shown = Figure((Space("body", bounds, layers, spatial=True),))
         studio.painter.draw(shown, target, display, plain=True)
         picture = target.pixels()[::-1]
         covered.append((picture != picture[0, 0]).any(-1))
     target.release()
     studio.ctx.extra.use()
-    assert covered[1].sum() > 15000
+    assert covered[1].sum() > 10000
     assert np.count_nonzero(covered[0] != covered[1]) <= 4
 
 

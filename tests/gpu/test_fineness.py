@@ -35,7 +35,7 @@ def clip(net: Array, camera: Camera) -> Array:
     return np.asarray(net @ camera.clip_from_model().T)
 
 
-@pytest.mark.parametrize("degrees", [(1, 1), (2, 2), (3, 1), (4, 6), (0, 2), (31, 5)])
+@pytest.mark.parametrize("degrees", [(1, 1), (2, 2), (3, 1), (4, 6), (0, 2), (9, 5)])
 @pytest.mark.parametrize("rational", [False, True])
 @pytest.mark.parametrize("field_of_view", [0.0, 50.0])
 def test_steps(
