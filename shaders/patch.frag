@@ -13,8 +13,8 @@
 // A field is told in the colours of a ramp, by g(s,t) or by s alone, with lines where it has equally
 // spaced values; if it is to be EXACT its map is evaluated here instead of being interpolated.
 //
-// A trimmed surface is cut off at pixel centres, or with ANTIALIASED fades into what is behind it
-// by the share of the pixel that stays.
+// A trimmed surface is cut off at pixel centres, or BY_SAMPLE, or with ANTIALIASED fades into what
+// is behind it by the share of the pixel that stays.
 
 // Here, for a file is expanded once, under whatever condition.
 #include "lib/net.glsl"
@@ -81,8 +81,8 @@ const ivec2 map_degree = ivec2(MAP_DEGREE_U, MAP_DEGREE_V);
 #endif
 #endif
 #ifdef TRIMMED
-#include "lib/trim.glsl"
 in vec2 trim_parameters;
+#include "lib/trim.glsl"
 #endif
 
 out vec4 fragment;
@@ -210,6 +210,9 @@ void main() {
     fragment.rgb *= ambient + (1.0 - ambient) * facing;
 #endif
 #ifdef TRIMMED
+#ifdef BY_SAMPLE
+    keep_samples(trim_parameters);
+#else
 #ifdef ANTIALIASED
     float share = pixel_coverage(trim_parameters, dFdx(trim_parameters), dFdy(trim_parameters));
 #else
@@ -218,5 +221,6 @@ void main() {
     if (share == 0.0)
         discard;
     fragment.a *= share;
+#endif
 #endif
 }

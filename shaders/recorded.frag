@@ -30,6 +30,10 @@ in vec2 vertex_texcoord;
 #endif
 uniform sampler2D image;
 #endif
+#ifdef TRIMMED
+in vec2 trim_parameters;
+#include "lib/trim.glsl"
+#endif
 
 out vec4 fragment;
 
@@ -71,6 +75,14 @@ void main() {
     fragment *= textureProj(image, vertex_texcoord);
 #else
     fragment *= texture(image, vertex_texcoord);
+#endif
+#endif
+#ifdef TRIMMED
+#ifdef BY_SAMPLE
+    keep_samples(trim_parameters);
+#else
+    if (winding_number(trim_parameters) == 0)
+        discard;
 #endif
 #endif
 }

@@ -7,6 +7,7 @@
 // Small triangles cost what is interpolated over them, so nothing is that need not be:
 //
 //   COLORED     the colours differ from vertex to vertex; else one for all
+//   TRIMMED     each fragment is to be decided
 //   PROJECTIVE  the texture coordinates have a fourth one to be divided by
 //   POSITIONAL  the light stands somewhere; else it comes from one direction
 
@@ -44,6 +45,15 @@ out vec2 vertex_texcoord;
 #endif
 #endif
 
+#ifdef TRIMMED
+#ifdef INSTANCED
+in vec4 trim_place;   // where the patch begins and ends in the region's unit square
+#else
+in vec2 trim_place;
+#endif
+out vec2 trim_parameters;
+#endif
+
 void main() {
 #ifdef INSTANCED
     vec4 position;
@@ -58,6 +68,13 @@ void main() {
 #endif
     vec4 eye = modelview * position;
     gl_Position = projection * eye;
+#ifdef TRIMMED
+#ifdef INSTANCED
+    trim_parameters = trim_place.xy * parameters.yw + trim_place.zw * parameters.xz;
+#else
+    trim_parameters = trim_place;
+#endif
+#endif
 #ifdef COLORED
     vertex_color = color;
 #endif

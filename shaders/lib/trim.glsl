@@ -16,9 +16,8 @@
 // Software rasterisers execute an `if` for every fragment, and a loop at least once: so there is
 // one short loop, and it does everything for a piece, whether near or not.
 //
+//   BY_SAMPLE      each of a pixel's samples is decided; where OpenGL cannot, its middle for all
 //   TRIM_DIVIDED   there are cells that are grids again
-
-#include "net.glsl"
 
 uniform isampler2D trim_nodes;   // first piece + 2^24 winding number; how many pieces are steep
                                  // + 2^10 closing + 2^20 flat, or -1 where there are too many
@@ -194,3 +193,63 @@ float pixel_coverage(vec2 uv, vec2 across, vec2 up) {
     float share = mix(row.x, row.y, between.y);
     return coarse ? share : clamp(float(winding) + sign(determinant) * swept, 0.0, 1.0);
 }
+
+#ifdef BY_SAMPLE
+uniform int samples;
+
+// What winding_number says of four points near uv, one bit each: 1 where the surface stays.
+int winding_set(vec2 uv, vec2 reach, vec4 u, vec4 v) {
+    float widest = max(reach.x, reach.y), size;
+    ivec2 node = find_leaf(uv, widest, size);
+    ivec3 kinds = kinds_of(node);
+    bool coarse = widest > TRIM_MARGIN * size || node.y < 0;
+    vec2 between;
+    int shares = share_texel(uv, 2.0 * widest, between), i = node.x & 0xFFFFFF;
+    int end = coarse ? 0 : kinds.z;
+    ivec4 winding = ivec4(node.x >> 24);
+    vec4 told;
+    do {
+        Piece piece = trim_piece(coarse ? shares : 2 * i);
+        told = piece.ends;
+        bool steep = i < kinds.x, forward = piece.ends.y > piece.ends.x;
+        vec4 x = steep ? v : u, y = steep ? u : v, b = piece.bump;
+        vec4 tau = clamp((x - piece.ends.x) / (piece.ends.y - piece.ends.x), 0.0, 1.0);
+        vec4 swell = b.x + tau * (b.y + tau * (b.z + tau * b.w));
+        vec4 value = piece.ends.z + tau * (piece.ends.w + (1.0 - tau) * swell);
+        float right = piece.ends.z + (forward ? piece.ends.w : 0.0);
+        ivec4 under = ivec4(greaterThan(value, y));
+        ivec4 lower = ivec4(lessThan(y, vec4(i < kinds.y ? -2.0 : right)));
+        ivec4 crossed = ivec4(lessThan(x, piece.ends.xxxx)) ^ ivec4(lessThan(x, piece.ends.yyyy));
+        ivec4 once = steep ? crossed & under : lower - under;
+        winding += i < end ? (forward ? once : -once) : ivec4(0);
+        ++i;
+    } while (i < end);
+    vec2 row = mix(told.xz, told.yw, between.x);
+    int several = (1 << int(4.0 * mix(row.x, row.y, between.y) + 0.5)) - 1;
+    ivec4 bits = min(abs(winding), 1) * ivec4(1, 2, 4, 8);
+    return coarse ? several : bits.x + bits.y + bits.z + bits.w;
+}
+
+// Leave to the fragment the samples at which the surface stays.
+void keep_samples(vec2 uv) {
+#if __VERSION__ >= 400 || (defined(GL_ARB_gpu_shader5) && defined(GL_ARB_sample_shading))
+    vec2 reach = 0.5 * (abs(dFdx(uv)) + abs(dFdy(uv)));
+    int kept = 0, i = 0;
+    do {
+        ivec4 number = min(ivec4(i, i + 1, i + 2, i + 3), samples - 1);
+        vec2 a = interpolateAtSample(trim_parameters, number.x);
+        vec2 b = interpolateAtSample(trim_parameters, number.y);
+        vec2 c = interpolateAtSample(trim_parameters, number.z);
+        vec2 d = interpolateAtSample(trim_parameters, number.w);
+        kept |= winding_set(uv, reach, vec4(a.x, b.x, c.x, d.x), vec4(a.y, b.y, c.y, d.y)) << i;
+        i += 4;
+    } while (i < samples);
+    if (kept == 0)
+        discard;
+    gl_SampleMask[0] = kept;
+#else
+    if (winding_number(uv) == 0)
+        discard;
+#endif
+}
+#endif

@@ -200,6 +200,17 @@ def test_what_is_behind_shows_in_the_edge(studio: Studio, evaluator: str) -> Non
 
 
 @pytest.mark.parametrize("evaluator", EVALUATORS)
+def test_surfaces_that_share_a_trim_curve_leave_no_crack(studio: Studio, evaluator: str) -> None:
+    hole = [reverse(circle()), star((0.5, 0.5), 0.2)]
+    regions = trim_region([SQUARE, *hole]), trim_region([reverse(loop) for loop in hole])
+    colors = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
+    layers = [Patches(FLAT, color=c, trim=r) for c, r in zip(colors, regions, strict=True)]
+    pixels = drawn(studio, layers, evaluator, 4, spatial=True).astype(int)
+    assert (np.abs(pixels[..., :2].sum(-1) - 255) <= 1).all()
+    assert ((pixels[..., 0] > 0) & (pixels[..., 0] < 255)).sum() > 300
+
+
+@pytest.mark.parametrize("evaluator", EVALUATORS)
 def test_the_wireframe_is_trimmed(studio: Studio, evaluator: str) -> None:
     region = trim_region([reverse(circle())])
     whole = drawn(studio, [Patches(FLAT)], evaluator, 1, wireframe=True)[..., 0] > 0

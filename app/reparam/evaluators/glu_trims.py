@@ -25,7 +25,9 @@ TRIM_ERRORS: dict[type[trim_errors.TrimError], type[GluError]] = {
 def check_trims(nurbs: Nurbs) -> None:
     """Raises NurbsError 18, 28, 29 or 31, or GluInvalidValue, for trims that bound no region.
 
-    The outermost loop is counter-clockwise in GLU: a hole alone leaves nothing to cut it from.
+    The outermost loop is counter-clockwise in GLU: a hole alone leaves nothing to cut it from, and
+    libGLU draws nothing. `trim_region` lets it cut the whole domain, as the specification may be
+    read; a ported program would show what it never did.
     """
     try:
         region = nurbs.region

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import groupby
 from operator import attrgetter
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,9 @@ from numpy.typing import NDArray
 from .arguments import Quad
 from .grids import CORNERS, DRAWN_AS, Grid, Indices, grid_pairs, mesh_indices
 from .maps import FILL, Array, Attribute, Map, homogeneous
+
+if TYPE_CHECKING:
+    from ..geometry.trimming import TrimRegion
 
 Single = NDArray[np.float32]
 HAVE_CURRENT: tuple[Attribute, ...] = ("normal", "color", "texcoord", "index")
@@ -58,6 +61,16 @@ class Maps:
         return self.auto_normal, *[feed.shape for feed in self.feeds]
 
 
+@dataclass(frozen=True, eq=False)
+class Trim:
+    """A region that decides, pixel by pixel, what stays of a mesh or collection; `low` and `high`
+    (2,): where its parameters [0,1]^2 begin and end in the region's unit square."""
+
+    region: TrimRegion
+    low: Array
+    high: Array
+
+
 @dataclass(eq=False)
 class Mesh:
     """One glEvalMesh."""
@@ -66,11 +79,13 @@ class Mesh:
     grid: Grid
     mode: int  # GL_POINT, GL_LINE or GL_FILL
     current: Current
+    trim: Trim | None = None
 
     @property
     def shape(self) -> object:
         """Meshes of equal shape, recorded one after another, are one draw."""
-        return self.maps.shape, self.grid, self.mode, self.current
+        region = None if self.trim is None else self.trim.region
+        return self.maps.shape, self.grid, self.mode, self.current, region
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,6 +104,7 @@ class Collection:
     dimensions: NDArray[np.int8]
     parameters: Array
     given: dict[Attribute, Array]
+    trim: Trim | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,21 +162,33 @@ class Batch:
 
 @dataclass(frozen=True, eq=False)
 class Recording:
-    """A sequence of calls, kept: what a display list was. Drawn as often as one likes."""
+    """A sequence of calls, kept: what a display list was. Drawn as often as one likes.
+
+    Where trimmed surfaces are among them, `items` has the triangles that the chords of the trims
+    leave of them, and `untrimmed` the same calls with those surfaces whole, which the built-in
+    program cuts off by the curves themselves; else it is empty.
+    """
 
     items: tuple[Mesh | Collection, ...]
+    untrimmed: tuple[Mesh | Collection, ...] = ()
 
     @cached_property
     def batches(self) -> tuple[Batch | Collection, ...]:
-        """The same in as few draws as the order of the calls allows."""
-        return tuple(self._grouped())
+        """The items in as few draws as the order of the calls allows."""
+        return tuple(_grouped(self.items))
 
-    def _grouped(self) -> Iterator[Batch | Collection]:
-        for shape, items in groupby(self.items, attrgetter("shape")):
-            if shape is None:
-                yield from items  # type: ignore[misc]
-            else:
-                yield Batch(tuple(items))  # type: ignore[arg-type]
+    @cached_property
+    def drawn(self) -> tuple[Batch | Collection, ...]:
+        """What the built-in program draws, in as few draws."""
+        return tuple(_grouped(self.untrimmed)) if self.untrimmed else self.batches
+
+
+def _grouped(items: tuple[Mesh | Collection, ...]) -> Iterator[Batch | Collection]:
+    for shape, alike in groupby(items, attrgetter("shape")):
+        if shape is None:
+            yield from alike  # type: ignore[misc]
+        else:
+            yield Batch(tuple(alike))  # type: ignore[arg-type]
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,13 +27,14 @@ from .constants import (
     GL_TRIANGLES,
 )
 from .glu_constants import (
+    GLU_FILL,
     GLU_NURBS_TESSELLATOR,
     GLU_OUTLINE_PATCH,
     GLU_OUTLINE_POLYGON,
 )
 from .grids import Axis, Grid, Indices, Walk, grid_points, mesh_indices, pairs, primitive_indices
 from .maps import FILL, Map
-from .recording import HAVE_CURRENT, Collection, Current, Evaluated, Maps, Mesh, Recording
+from .recording import HAVE_CURRENT, Collection, Current, Evaluated, Maps, Mesh, Recording, Trim
 from .sampling import steps
 from .splines import Nurbs
 from .trimmed import edges_of, trimmed_pieces
@@ -182,9 +184,45 @@ def culled(nurbs: Nurbs, nets: Array) -> NDArray[np.bool_]:
 def recording(*recorded: Nurbs, current: Current | None = None) -> Recording:
     """Curves and surfaces as what `Evaluators.draw` draws, with these current values."""
     current = current or Current()
-    return Recording(
-        tuple(_with_current(part.item, current) for nurbs in recorded for part in parts(nurbs))
-    )
+    items = [_items(parts(nurbs), current) for nurbs in recorded]
+    if not any(map(by_pixel, recorded)):
+        return Recording(tuple(chain(*items)))
+    untrimmed = [
+        _items(undecided(nurbs), current) if by_pixel(nurbs) else those
+        for nurbs, those in zip(recorded, items, strict=True)
+    ]
+    return Recording(tuple(chain(*items)), tuple(chain(*untrimmed)))
+
+
+def by_pixel(nurbs: Nurbs) -> bool:
+    """Whether the trims are a matter of pixels: of a surface that is filled. Lines are those of
+    the triangles and of the chords, as GLU's are."""
+    if len(nurbs.vertex.knots) == 1 or nurbs.region is None:
+        return False
+    properties = nurbs.properties
+    return properties.display_mode == GLU_FILL and properties.mode != GLU_NURBS_TESSELLATOR
+
+
+def undecided(nurbs: Nurbs) -> list[Part]:
+    """A trimmed surface as if it were not: first the pieces that no trim comes near, then, with
+    their trims, those that are cut; those outside are left out."""
+    from ..geometry.trimming.lookup import CUT, INSIDE, boxes_kept  # few surfaces are trimmed
+
+    region, found = nurbs.region, list(_fillings(nurbs))
+    assert region is not None
+    low = region.to_square(*np.reshape([part.low for part in found], (-1, 2)).T)
+    high = region.to_square(*np.reshape([part.low + part.size for part in found], (-1, 2)).T)
+    kept = boxes_kept(region.pack(), low, high)
+    whole = [part for part, which in zip(found, kept, strict=True) if which == INSIDE]
+    cut = [
+        replace(found[i], item=replace(found[i].item, trim=Trim(region, low[i], high[i])))
+        for i in np.flatnonzero(kept == CUT)
+    ]
+    return [*whole, *cut]
+
+
+def _items(found: list[Part], current: Current) -> list[Mesh | Collection]:
+    return [_with_current(part.item, current) for part in found]
 
 
 def _with_current(item: Mesh | Collection, current: Current) -> Mesh | Collection:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import weakref
 from collections import deque
-from collections.abc import Hashable
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -13,14 +13,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..evaluators.arguments import Quad
-from ..evaluators.grids import grid_pairs, mesh_indices
+from ..evaluators.grids import grid_pairs, grid_points, mesh_indices
 from ..evaluators.maps import Array, Attribute
-from ..evaluators.recording import HAVE_CURRENT, Batch, Collection, Recording
+from ..evaluators.recording import HAVE_CURRENT, Batch, Collection, Recording, Trim
 from .evaluated import SIZES, read_collection
 from .evaluation import Carried, orders, patch_count
 from .programs import degree_defines
 
 if TYPE_CHECKING:
+    from ..geometry.trimming import TrimRegion
     from .painter import Painter
 
 Single = NDArray[np.float32]
@@ -47,6 +48,15 @@ class Spot:
 
 
 @dataclass(frozen=True)
+class Trimming:
+    """What decides about the fragments, and where they lie in that region's unit square: (u, v) of
+    each vertex, or (u0, v0, u1, v1) of each instance."""
+
+    region: TrimRegion
+    places: Stream
+
+
+@dataclass(frozen=True)
 class Drawable:
     """A batch or a collection on the GPU: what differs from vertex to vertex, the values of what
     does not, and the primitives of one instance."""
@@ -60,6 +70,7 @@ class Drawable:
     owned: tuple[moderngl.Buffer, ...]
     spot: Spot | None = None
     instances: int = 1
+    trimming: Trimming | None = None
 
     def release(self) -> None:
         """Give the memory back; of the indices when nobody uses them any more."""
@@ -94,8 +105,10 @@ class Drawables:
         kept = self._kept[recording]
         if on_the_spot not in kept:
             with self._ctx.scope(self._painter.nowhere, moderngl.NOTHING):
-                kept[on_the_spot] = [self._make(item, on_the_spot) for item in recording.batches]
+                items = recording.drawn if on_the_spot else recording.batches
+                kept[on_the_spot] = [self._make(item, on_the_spot) for item in items]
             self._painter.evaluation.sweep()
+            self._painter.surfaces.trims.sweep()
         for dead in self._dead:
             _release(dead)
         self._dead.clear()
@@ -143,6 +156,8 @@ class Drawables:
             if normals:
                 streams["normal"] = (buffer, "16x 3f")
         current = batch.first.current
+        trims = [mesh.trim for mesh in batch.meshes]
+        trimming = self._trimming(trims, None if spot is not None else grid_points(grid))
         return Drawable(
             streams,
             {a: current.value(a) for a in HAVE_CURRENT if a not in streams},
@@ -150,10 +165,23 @@ class Drawables:
             MODES[batch.indices.shape[1]],
             copies * batch.indices.size,
             "texcoord" in batch.feeds and batch.feeds["texcoord"].components == 4,
-            tuple(owned),
+            tuple(owned) if trimming is None else (*owned, trimming.places[0]),
             spot,
             patches // copies,
+            trimming,
         )
+
+    def _trimming(self, trims: Sequence[Trim | None], parameters: Array | None) -> Trimming | None:
+        """An instance each, or, for each, vertices with these parameters (k, 2)."""
+        if trims[0] is None:
+            return None
+        low, high = (np.stack([getattr(trim, name) for trim in trims]) for name in ("low", "high"))
+        if parameters is None:
+            where, layout = np.concatenate([low, high], -1), "4f /i"
+        else:
+            where, layout = low[:, None] + (high - low)[:, None] * parameters, "2f"
+        places = self._ctx.buffer(where.astype(np.float32).tobytes())
+        return Trimming(trims[0].region, (places, layout))
 
     def _mesh_indices(self, batch: Batch, patches: int) -> Shared:
         """The primitives of at least so many patches."""
@@ -198,7 +226,9 @@ class Drawables:
         mode, count = MODES[found.primitives.shape[1]], found.primitives.size
         projective = bool(np.any(found.texcoords[:, 3] != 1.0))
         indices = self._shared(found.primitives)
-        return Drawable(streams, {}, indices, mode, count, projective, (buffer,))
+        trimming = self._trimming([collection.trim], collection.parameters)
+        owned = (buffer,) if trimming is None else (buffer, trimming.places[0])
+        return Drawable(streams, {}, indices, mode, count, projective, owned, trimming=trimming)
 
 
 def layout(attribute: Attribute, components: int, normals: bool) -> str:

@@ -35,7 +35,9 @@ SPECIALISED_DEGREE = 8  # up to here the degree is a constant of the program
 # `precise` keeps a compiler from contracting a*b + c, so that edges read from both sides agree.
 VERSIONS = {
     330: "#version 330 core\n#extension GL_ARB_gpu_shader5 : enable\n"
-    "#ifdef GL_ARB_gpu_shader5\n#define PRECISE precise\n#else\n#define PRECISE\n#endif\n",
+    "#extension GL_ARB_sample_shading : enable\n"
+    "#ifdef GL_ARB_gpu_shader5\n#define PRECISE precise\n"
+    "#else\n#define PRECISE\n#endif\n",
     400: "#version 400 core\n#define PRECISE precise\n",
 }
 

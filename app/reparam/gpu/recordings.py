@@ -20,12 +20,15 @@ from ..scenes.layers import Recorded
 from .drawables import Drawable, Drawables, Spot
 from .evaluated import SIZES, read_collection
 from .programs import Program
+from .trims import Edges, trim_defines
 
 if TYPE_CHECKING:
     from .painter import Painter
 
 TEXTURE_UNIT = 0
 SPOT_ATTRIBUTES = ("parameters", "control")  # of recorded.vert, where it evaluates
+TRIM_ATTRIBUTE = "trim_place"  # and where it is trimmed
+TRIM_UNIT = 1
 ATTRIBUTES: dict[str, Attribute] = {  # names in a user's program; `in_` may stand before them
     "position": "vertex", "vert": "vertex",
     "normal": "normal", "norm": "normal",
@@ -73,6 +76,9 @@ class Recordings:
             if modes is not None and drawable.mode not in modes:
                 continue
             defines = look_of(drawable, light, texture is not None)
+            if drawable.trimming is not None:
+                edges: Edges = "samples" if self._ctx.fbo.samples > 1 else "pixels"
+                defines |= trim_defines(drawable.trimming.region, edges)
             program = self._painter.programs.get("recorded.vert", "recorded.frag", defines=defines)
             program.set(projection=_column_major(projection), modelview=_column_major(modelview))
             if "COLORED" not in defines:
@@ -82,14 +88,20 @@ class Recordings:
                 _set_light(program, light)
             if texture is not None:
                 program.set(image=TEXTURE_UNIT)
+            if drawable.trimming is not None:
+                region = drawable.trimming.region
+                self._painter.surfaces.trims.bind_region(program, region, TRIM_UNIT)
             self._render(drawable, program.ready())
 
     def _render(self, drawable: Drawable, program: moderngl.Program) -> None:
         content: list[tuple[moderngl.Buffer, str, str]] = []
         made = []
-        own = () if drawable.spot is None else SPOT_ATTRIBUTES
+        own: tuple[str, ...] = ()
         if drawable.spot is not None:
-            content = self._on_the_spot(drawable.spot, program)
+            own, content = SPOT_ATTRIBUTES, self._on_the_spot(drawable.spot, program)
+        if drawable.trimming is not None:
+            own = (*own, TRIM_ATTRIBUTE)
+            content.append((*drawable.trimming.places, TRIM_ATTRIBUTE))
         for name, attribute in attributes_of(program, own).items():
             if attribute in drawable.streams:
                 content.append((*drawable.streams[attribute], name))

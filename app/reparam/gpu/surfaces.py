@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import moderngl
 import numpy as np
@@ -21,7 +21,7 @@ from .meshes import triangle_indices
 from .nets import NET_UNIT
 from .pictures import Pictures
 from .programs import Program, Programs, degree_defines
-from .trims import Part, Trims, decided, trim_defines
+from .trims import Edges, Part, Trims, decided, trim_defines
 
 Array = NDArray[np.float64]
 
@@ -31,7 +31,6 @@ RAMP = Picture("ramp", wrap="mirror")
 
 Fine = int | Tolerance  # steps in u and in v of every patch, or what a drawn point may be off
 
-SAMPLE_ALPHA_TO_COVERAGE = 0x809E
 TRIMMED_TILE = 8  # steps: of a trimmed surface only tiles near its curves look them up
 
 Tile = tuple[int, int, int, int]
@@ -51,6 +50,7 @@ class Look:
     pictured: bool = True
     bare: bool = False
     map: Array | None = None
+    edges: Edges = "shares"  # of what is trimmed, where pixels have several samples
 
 
 class Surfaces:
@@ -69,7 +69,7 @@ class Surfaces:
         self._software = capabilities.software
         self.pictures = Pictures(ctx, capabilities)
         self.adaptive = Adaptive(ctx, programs, evaluation, capabilities)
-        self._trims = Trims(ctx)
+        self.trims = Trims(ctx)
         self._batches = Batches(evaluation)
         self._indices: dict[tuple[int, int], moderngl.Buffer] = {}
 
@@ -88,8 +88,8 @@ class Surfaces:
         that is about textures or triangles, lit or not.
 
         `scale` says which value is white and which has the full colour. The edge of a trimmed
-        surface is blended with what is behind it; in space that may not be drawn yet, so there the
-        pixel's samples are shared out.
+        surface is blended with what is behind it; in space that may not be drawn yet, so there each
+        of the pixel's samples is decided, and surfaces that share a trim curve meet.
         """
         look = Look(layer.color)
         if shading in DISTORTION:
@@ -99,16 +99,9 @@ class Surfaces:
             look = Look(color, shading, scale, pictured=False)
         elif layer.texture is not None and layer.texture.exact:
             look = Look(layer.color, map=layer.texture.net)
-        share_samples = layer.trim is not None and spatial and self._ctx.fbo.samples > 1
-        if share_samples:
-            self._ctx.enable_direct(SAMPLE_ALPHA_TO_COVERAGE)
-            self._ctx.disable(moderngl.BLEND)
-        try:
-            self._draw(layer, camera, evaluator, fine, look)
-        finally:
-            if share_samples:
-                self._ctx.disable_direct(SAMPLE_ALPHA_TO_COVERAGE)
-                self._ctx.enable(moderngl.BLEND)
+        if spatial:
+            look = replace(look, edges="samples")
+        self._draw(layer, camera, evaluator, fine, look)
 
     def draw_wireframe(
         self, layer: Patches, camera: Camera, evaluator: str, fine: Fine, color: Color
@@ -123,7 +116,7 @@ class Surfaces:
     def _draw(self, layer: Patches, camera: Camera, evaluator: str, fine: Fine, look: Look) -> None:
         if isinstance(fine, Tolerance):
             plan = self.adaptive.plan(layer, camera, evaluator, fine)
-            for trimmed, part in self._trims.planned(layer, plan):
+            for trimmed, part in self.trims.planned(layer, plan):
                 self.adaptive.draw(
                     layer,
                     evaluator,
@@ -141,7 +134,7 @@ class Surfaces:
         """End of a frame."""
         self._batches.sweep()
         self.adaptive.sweep()
-        self._trims.sweep()
+        self.trims.sweep()
 
     def forget(self) -> None:
         """Drop what older shaders evaluated."""
@@ -165,7 +158,8 @@ class Surfaces:
         if layer.lit and not look.bare:
             defines["LIT"] = 1
         if layer.trim is not None:
-            defines |= trim_defines(layer.trim, self._ctx.fbo.samples > 1 and not look.bare)
+            several = self._ctx.fbo.samples > 1 and not look.bare
+            defines |= trim_defines(layer.trim, look.edges if several else "pixels")
         return defines
 
     def set_common(self, program: Program, layer: Patches, camera: Camera, look: Look) -> None:
@@ -192,7 +186,7 @@ class Surfaces:
             assert layer.texture is not None
             self._set_picture(program, layer.texture)
         if "TRIMMED" in program.defines:
-            self._trims.bind(program, layer, unit=3)
+            self.trims.bind(program, layer, unit=3)
 
     def _set_picture(self, program: Program, texture: Texture) -> None:
         picture = texture.picture
@@ -250,7 +244,7 @@ class Surfaces:
     def _parts(self, layer: Patches, level: int, patches: range) -> list[Part]:
         """The triangles to draw; in a trimmed surface only some must ask for each fragment."""
         if layer.trim is not None:
-            return self._trims.parts(layer, level, patches)
+            return self.trims.parts(layer, level, patches)
         count = len(patches)
         return [Part(False, self._triangles(level, count), 6 * level * level * count)]
 
@@ -293,7 +287,7 @@ class Surfaces:
 
         pieces = tiles(level, TRIMMED_TILE)
         lines = np.append(np.arange(0, level, TRIMMED_TILE), level) / level
-        kept = self._trims.cells(layer, lines).reshape(-1, len(pieces))
+        kept = self.trims.cells(layer, lines).reshape(-1, len(pieces))
         kept = np.broadcast_to(kept, (len(everything), len(pieces)))
         for which in (INSIDE, CUT):
             chosen = [(tile, everything[kept[:, i] == which]) for i, tile in enumerate(pieces)]

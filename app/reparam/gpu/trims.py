@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import moderngl
 import numpy as np
@@ -25,7 +25,9 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-TRIM_DEFINES = ("TRIMMED", "ANTIALIASED", "TRIM_DIVIDED")
+TRIM_DEFINES = ("TRIMMED", "ANTIALIASED", "BY_SAMPLE", "TRIM_DIVIDED")
+
+Edges = Literal["pixels", "samples", "shares"]  # what decides: centres, samples, or how much stays
 UNIT_SQUARE = np.array([[0.0, 1.0, 0.0, 1.0]])
 
 
@@ -75,24 +77,27 @@ class Trims:
         region, domains = layer.trim, layer.domains
         assert region is not None
         packed = region.pack()
-        textures = self._regions.get(packed.shares[0], None, lambda: self._upload(packed))
         where = self._domains.get(
             packed.shares[0] if domains is None else domains,
             region.domain,
             lambda: net_texture(self._ctx, domains_in_square(region, domains)),
         )
-        bound = (textures.nodes, textures.divisions, textures.pieces, where)
+        where.use(unit + 3)
+        program.set(patch_domains=unit + 3, domain_stride=0 if domains is None else 1)
+        self.bind_region(program, region, unit)
+
+    def bind_region(self, program: Program, region: TrimRegion, unit: int) -> None:
+        """A region, in three units from `unit` on. Raises GraphicsError where it is too large."""
+        packed = region.pack()
+        textures = self._regions.get(packed.shares[0], None, lambda: self._upload(packed))
+        bound = (textures.nodes, textures.divisions, textures.pieces)
         for number, texture in enumerate(bound, start=unit):
             texture.use(number)
-        program.set(
-            trim_nodes=unit,
-            trim_pieces=unit + 2,
-            patch_domains=unit + 3,
-            trim_side=packed.side,
-            trim_shares=2 * len(packed.pieces),
-            trim_coarsest=len(packed.shares) - 1,
-            domain_stride=0 if domains is None else 1,
-        )
+        program.set(trim_nodes=unit, trim_pieces=unit + 2, trim_side=packed.side)
+        if program.defines & {"ANTIALIASED", "BY_SAMPLE"}:
+            program.set(trim_shares=2 * len(packed.pieces), trim_coarsest=len(packed.shares) - 1)
+        if "BY_SAMPLE" in program.defines:
+            program.set(samples=self._ctx.fbo.samples)
         if "TRIM_DIVIDED" in program.defines:
             program.set(trim_divisions=unit + 1)
 
@@ -191,9 +196,14 @@ class Trims:
         self._patches.sweep()
 
 
-def trim_defines(region: TrimRegion, antialiased: bool) -> dict[str, int]:
+def trim_defines(region: TrimRegion, edges: Edges) -> dict[str, int]:
     """The defines of what is trimmed by a region."""
-    wanted = {"TRIMMED": True, "ANTIALIASED": antialiased, "TRIM_DIVIDED": region.pack().divided}
+    wanted = {
+        "TRIMMED": True,
+        "ANTIALIASED": edges == "shares",
+        "BY_SAMPLE": edges == "samples",
+        "TRIM_DIVIDED": region.pack().divided,
+    }
     return {name: 1 for name, on in wanted.items() if on}
 
 
