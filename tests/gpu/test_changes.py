@@ -116,7 +116,7 @@ def test_random_edits_leave_what_a_fresh_painter_makes(
     monkeypatch.setattr(batches, "BATCH_VERTICES", 350 * (LEVEL + 1) ** 2)
     painter, random = Painter(studio.ctx), np.random.default_rng(3)
     nets = random_nets(random, (2, 3), True, PATCHES)
-    with studio.ctx.scope(painter.nowhere, moderngl.NOTHING):
+    with painter.evaluating:
         kept(painter, nets)
         for number in range(ROUNDS):
             painter.evaluation.sweep()

@@ -113,6 +113,7 @@ def test_evaluators(studio: Studio) -> None:
             gl.read()
         else:
             gl.draw()
+        studio.ctx.finish()
         assert studio.ctx.error == "GL_NO_ERROR"
 
     try:

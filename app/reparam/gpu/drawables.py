@@ -104,7 +104,7 @@ class Drawables:
             weakref.finalize(recording, self._dead.append, self._kept[recording]).atexit = False
         kept = self._kept[recording]
         if on_the_spot not in kept:
-            with self._ctx.scope(self._painter.nowhere, moderngl.NOTHING):
+            with self._painter.evaluating:
                 items = recording.drawn if on_the_spot else recording.batches
                 kept[on_the_spot] = [self._make(item, on_the_spot) for item in items]
             self._painter.evaluation.sweep()

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-import moderngl
 import numpy as np
 
 from ..evaluators.grids import Indices, grid_points, pairs, primitive_indices
@@ -35,7 +34,7 @@ def read_recording(
     context has not that one.
     """
     found: list[Evaluated] = []
-    with painter.ctx.scope(painter.nowhere, moderngl.NOTHING):
+    with painter.evaluating:
         for item in recording.batches:
             if isinstance(item, Batch):
                 found.extend(read_batch(painter, item, evaluator or "vertex"))
