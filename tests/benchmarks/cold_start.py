@@ -14,6 +14,8 @@ import sys
 import tempfile
 from pathlib import Path
 
+from frames import python
+
 from reparam.assets import texture_path
 from reparam.bench import Rows, Skipped, interleave
 
@@ -88,7 +90,7 @@ def rows(pairs: int) -> Rows:
         for kind, goal in (("numpy", 1.3), ("without-numpy", None)):
             other = [*bare, f"{folder}/bare.png", kind]
             times = interleave(
-                lambda: subprocess.run([sys.executable, "-c", RENDER, *draw], check=True),
+                lambda: python("-c", RENDER, *draw),
                 lambda other=other: subprocess.run(other, check=True),
                 pairs,
             )

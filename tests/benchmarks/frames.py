@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
 
 import moderngl
 import numpy as np
 
+import reparam
 from reparam.geometry.camera import Camera
 from reparam.geometry.net import Array
 from reparam.gpu.targets import Target
@@ -64,6 +69,14 @@ def frames(studio: Studio, size: tuple[int, int], samples: int = 0) -> Iterator[
         studio.ctx.disable(moderngl.DEPTH_TEST)
         studio.ctx.extra.use()
         target.release()
+
+
+def python(*words: str) -> str:
+    """What a Python process prints that imports the package that runs here."""
+    environment = os.environ | {"PYTHONPATH": str(Path(reparam.__file__).parents[1])}
+    command = [sys.executable, *words]
+    done = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env=environment)
+    return done.stdout
 
 
 def wavy_patches(count: int, degree: int) -> Array:

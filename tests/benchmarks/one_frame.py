@@ -3,9 +3,8 @@
 `submit` is the frame of one patch at level 1: the same calls from Python and in the driver, next to
 nothing for the GPU. `vertices` is what a frame costs more whose triangles are discarded before the
 rasteriser, `triangles` what it costs more in a viewport of 16 x 16 pixels, `fragments` what it
-costs more at full size. A frame without an edit finds its vertices evaluated: `edit` is what it
-costs more if one patch has changed, `evaluation` if all have. Of the frames, which are drawn in
-turn, the fastest count; the ratios are shares of the frame without an edit.
+costs more at full size. Of the frames, which are drawn in turn, the fastest count; the ratios are
+shares of the whole frame, which finds its patches evaluated (`edit` and `edited` do not).
 """
 
 from __future__ import annotations
@@ -30,8 +29,6 @@ PARTS = (  # what is measured: one frame less another
     ("vertices", "discarded", "few"),
     ("triangles", "tiny", "discarded"),
     ("fragments", "whole", "tiny"),
-    ("edit", "one_edited", "whole"),
-    ("evaluation", "all_edited", "whole"),
 )
 
 
@@ -79,7 +76,6 @@ def _frames(
     studio: Studio, frame: Frame, layer: Patches, few: Patches
 ) -> dict[str, Callable[[], None]]:
     ctx, surfaces = studio.ctx, studio.painter.surfaces
-    edited = layer.net
 
     def draw(shown: Patches, level: int = LEVEL) -> None:
         surfaces.draw(shown, FROM_ABOVE, "vertex", level)
@@ -95,20 +91,9 @@ def _frames(
         ctx.viewport = TINY
         draw(layer)
 
-    def all_edited() -> None:
-        draw(Patches(layer.net * 1.0001, layer.texture, lit=True))
-
-    def one_edited() -> None:
-        nonlocal edited
-        edited = edited.copy()
-        edited[500, 1, 1, 2] += 1e-3
-        draw(Patches(edited, layer.texture, lit=True))
-
     return {
         "few": frame(lambda: draw(few, 1)),
         "discarded": frame(discarded),
         "tiny": frame(tiny),
         "whole": frame(lambda: draw(layer)),
-        "all_edited": frame(all_edited),
-        "one_edited": frame(one_edited),
     }

@@ -10,10 +10,10 @@ our own Python.
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 import tempfile
 import time
+
+from frames import python
 
 from reparam.bench import Row, Rows
 
@@ -105,9 +105,8 @@ def rows(pairs: int) -> Rows:
     runs: list[dict[str, float]] = []
     with tempfile.TemporaryDirectory() as folder:
         for _ in range(min(pairs, 21) + 2):
-            command = [sys.executable, "-c", PHASES, str(time.time()), f"{folder}/ours.png"]
-            done = subprocess.run(command, check=True, capture_output=True, text=True)
-            runs.append(json.loads(done.stdout))
+            found = python("-c", PHASES, str(time.time()), f"{folder}/ours.png")
+            runs.append(json.loads(found))
     runs = runs[2:]  # the driver's shader cache is full now
     least = {name: 1e3 * min(run[name] for run in runs) for name in runs[0]}
     whole = sum(least.values())
