@@ -16,7 +16,9 @@ HEAD = """# Benchmarks
 `reparam bench` compares our frames with what a user would draw instead. A row is a *ratio in one
 run*: both sides are run in turn, and the ratio is the median over the pairs, so that what disturbs
 the machine disturbs both. Milliseconds are the medians of the same runs: they depend on the machine
-and on what else it does, the ratios hardly. Each table says what machine it is from.
+and on what else it does, the ratios much less. Each table says what machine it is from, and its
+load average: above the number of cores the times are many times those of an idle machine. No
+figure here is from a GPU unless its table says so.
 
 This file is made by `reparam bench --into docs/BENCHMARKS.md`; with the names of benchmarks only
 their tables are made anew. Goals are ratios to be reached; where one is missed, the text beneath
@@ -27,14 +29,15 @@ CPU_INFO = Path("/proc/cpuinfo")
 
 
 def machine() -> str:
-    """Processor, OpenGL and Python in one line."""
+    """Processor, what else it does, OpenGL and Python in one line."""
     from .snapshot import Studio
 
     found = Studio().painter.capabilities
     kind = "software rendering, no GPU" if found.software else f"GPU of {found.vendor}"
+    busy = f" (load average {os.getloadavg()[0]:.1f})" if hasattr(os, "getloadavg") else ""
     return (
-        f"{_processor()}, {os.cpu_count()} cores; {found.renderer}, OpenGL {found.driver}: {kind}; "
-        f"Python {platform.python_version()}"
+        f"{_processor()}, {os.cpu_count()} cores{busy}; {found.renderer}, OpenGL {found.driver}: "
+        f"{kind}; Python {platform.python_version()}"
     )
 
 
