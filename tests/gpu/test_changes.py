@@ -11,6 +11,7 @@ from reparam.geometry.camera import Camera
 from reparam.geometry.net import Array
 from reparam.gpu import batches, changes
 from reparam.gpu.changes import changed_runs, runs
+from reparam.gpu.context import bound
 from reparam.gpu.painter import Painter
 from reparam.scenes.layers import Patches, Picture, Texture
 from reparam.snapshot import Studio
@@ -116,7 +117,7 @@ def test_random_edits_leave_what_a_fresh_painter_makes(
     monkeypatch.setattr(batches, "BATCH_VERTICES", 350 * (LEVEL + 1) ** 2)
     painter, random = Painter(studio.ctx), np.random.default_rng(3)
     nets = random_nets(random, (2, 3), True, PATCHES)
-    with painter.evaluating:
+    with bound(studio.ctx, painter.nowhere):
         kept(painter, nets)
         for number in range(ROUNDS):
             painter.evaluation.sweep()

@@ -14,6 +14,7 @@ from ..geometry.net import Array
 from ..geometry.silhouette import distances, outline
 from ..scenes.layers import Patches
 from .adaptive import Plan
+from .context import bound
 from .evaluation import patch_count
 from .painter import Painter
 from .programs import Program
@@ -115,7 +116,7 @@ def located(drawn: Drawn, textured: bool = False) -> tuple[Floats, Floats]:
     images = [ctx.texture(size, 4, dtype="f4") for _ in range(1 + textured)]
     depth = ctx.depth_renderbuffer(size)
     framebuffer = ctx.framebuffer(images, depth)
-    with ctx.scope(framebuffer, moderngl.DEPTH_TEST):
+    with bound(ctx, framebuffer, moderngl.DEPTH_TEST):
         framebuffer.clear(-1.0, 0.0, 0.0, 0.0, depth=1.0)
         defines = {"LOCATED": 1} | ({"TEXTURED": 1} if textured else {})
         _draw(drawn, "located.frag", defines)
@@ -135,7 +136,7 @@ def covered(drawn: Drawn, size: tuple[int, int]) -> NDArray[np.bool_]:
     check_size(*size, drawn.painter.capabilities)
     image = ctx.renderbuffer(size, 1)
     framebuffer = ctx.framebuffer([image])
-    with ctx.scope(framebuffer, 0):
+    with bound(ctx, framebuffer):
         framebuffer.clear()
         _draw(drawn, "patch.frag", {})
         read = np.frombuffer(framebuffer.read(components=1, alignment=1), np.uint8)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import ctypes
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
@@ -92,3 +94,16 @@ def _prepared(ctx: moderngl.Context) -> moderngl.Context:
             for parameter, value in KEPT_MEMORY.items():
                 mallopt(parameter, value)
     return ctx
+
+
+@contextmanager
+def bound(
+    ctx: moderngl.Context, framebuffer: moderngl.Framebuffer, flags: int = 0
+) -> Iterator[None]:
+    """With this framebuffer and only these flags enabled; then all as it was."""
+    scope = ctx.scope(framebuffer, flags)
+    try:
+        with scope:
+            yield
+    finally:
+        scope.release()  # or its memory is lost

@@ -16,6 +16,7 @@ from ..evaluators.arguments import Quad
 from ..evaluators.grids import grid_pairs, grid_points, mesh_indices
 from ..evaluators.maps import Array, Attribute
 from ..evaluators.recording import HAVE_CURRENT, Batch, Collection, Recording, Trim
+from .context import bound
 from .evaluated import SIZES, read_collection
 from .evaluation import Carried, orders, patch_count
 from .programs import degree_defines
@@ -104,7 +105,7 @@ class Drawables:
             weakref.finalize(recording, self._dead.append, self._kept[recording]).atexit = False
         kept = self._kept[recording]
         if on_the_spot not in kept:
-            with self._painter.evaluating:
+            with bound(self._ctx, self._painter.nowhere):
                 items = recording.drawn if on_the_spot else recording.batches
                 kept[on_the_spot] = [self._make(item, on_the_spot) for item in items]
             self._painter.evaluation.sweep()

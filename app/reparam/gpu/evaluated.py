@@ -17,6 +17,7 @@ from ..evaluators.recording import (
     Recording,
     Single,
 )
+from .context import bound
 from .readback import read_at
 
 if TYPE_CHECKING:
@@ -34,7 +35,7 @@ def read_recording(
     context has not that one.
     """
     found: list[Evaluated] = []
-    with painter.evaluating:
+    with bound(painter.ctx, painter.nowhere):
         for item in recording.batches:
             if isinstance(item, Batch):
                 found.extend(read_batch(painter, item, evaluator or "vertex"))

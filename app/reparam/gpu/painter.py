@@ -75,12 +75,6 @@ class Painter:
         return self.ctx.framebuffer([self.ctx.renderbuffer((1, 1))])
 
     @cached_property
-    def evaluating(self) -> moderngl.Scope:
-        """To be entered while evaluating: `nowhere`, and all as it was afterwards. One for all
-        times, for moderngl never gives back a scope's memory."""
-        return self.ctx.scope(self.nowhere, moderngl.NOTHING)
-
-    @cached_property
     def recordings(self) -> Recordings:
         """What evaluator calls recorded."""
         from .recordings import Recordings

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
 from .batches import grid
+from .context import bound
 from .evaluation import orders, patch_count
 from .nets import NET_UNIT
 from .painter import Painter
@@ -74,7 +74,7 @@ def _read_tessellated(
     )
     layers = [ctx.texture(size, 4, dtype="f4") for _ in range(3)]
     framebuffer = ctx.framebuffer(layers)
-    with ctx.scope(framebuffer, moderngl.NOTHING):
+    with bound(ctx, framebuffer):
         framebuffer.clear()
         painter.evaluation.texture(net).use(NET_UNIT)
         program.set(
