@@ -21,8 +21,9 @@ load average: above the number of cores the times are many times those of an idl
 figure here is from a GPU unless its table says so.
 
 This file is made by `reparam bench --into docs/BENCHMARKS.md`; with the names of benchmarks only
-their tables are made anew. Goals are ratios to be reached; where one is missed, the text beneath
-the table says why.
+their tables are made anew. Goals are ratios to be reached; where one is out of reach, the text
+beneath the table says why. With few pairs on a busy machine a row near its goal may fall on either
+side of it.
 """
 COLUMNS = ("row", "ratio", "goal", "ours, ms", "other, ms", "settings")
 CPU_INFO = Path("/proc/cpuinfo")

@@ -74,6 +74,12 @@ result.transpose(Image.Transpose.FLIP_TOP_BOTTOM).save(sys.argv[2])
 '''
 
 
+ACCOUNT = """
+What a start does beyond the bare program is in `start_up`: our own modules, which are Python to be
+loaded, then command line, scene and figure. On a busy machine loading many small files waits more
+often than drawing does.
+"""
+
 RENDER = "import sys; from reparam.cli import main; sys.exit(main())"
 
 

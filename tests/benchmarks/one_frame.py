@@ -38,9 +38,9 @@ rasteriser that is the transformation of the vertices, the set-up of their trian
 fragments, all of which a static mesh of the same triangles needs as well (`static_mesh`): the
 evaluated patches are such a mesh. What was tried and is not done: the degrees as uniforms instead
 of constants of the program cost 2.4 times a static mesh; evaluating for every frame, as
-tessellation must, costs up to half a frame more there, and is for GPUs; all patches in one draw is
-quadratic in llvmpipe's tessellator, so it gets 64 at a time; grids evaluated strip by strip gave
-way to sums over local arrays, which the compiler unrolls.
+tessellation must, costs a twentieth to a quarter of a frame more, and is for GPUs; all patches in
+one draw is quadratic in llvmpipe's tessellator, so it gets 64 at a time; grids evaluated strip by
+strip gave way to sums over local arrays, which the compiler unrolls.
 """
 
 
