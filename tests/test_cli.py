@@ -103,7 +103,7 @@ def test_without_a_command_and_a_screen_the_figures_are_written(
     out: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr("reparam.viewer.screen.screen_missing", lambda: "no screen")
-    some = list(plates())[::16]  # the goldens draw all
+    some = list(plates())[::24]  # the goldens draw all
     monkeypatch.setattr("reparam.gallery.plates", lambda: iter(some))
     assert main([]) == 0
     folder = out.parent / "figures"

@@ -114,7 +114,7 @@ def test_front_and_back_faces_cancel_at_every_pixel(
 @pytest.mark.parametrize("evaluator", EVALUATORS)
 @pytest.mark.parametrize(
     ("name", "views"),
-    [("cube", 6), ("prism7", 6), *(pytest.param(n, 200, marks=pytest.mark.slow) for n in CLOSED)],
+    [("cube", 3), ("prism7", 3), *(pytest.param(n, 200, marks=pytest.mark.slow) for n in CLOSED)],
 )
 def test_surface_splines_are_closed(
     counter: tuple[Painter, moderngl.Framebuffer, moderngl.Texture],

@@ -49,13 +49,13 @@ def as_glu(piece: Array) -> tuple[Any, ...]:
     return ("nurbs", [0.0] * order + [1.0] * order, piece, order)
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(2))
 def test_areas_and_sides(seed: int) -> None:
     compare(seed)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(5, 45))
+@pytest.mark.parametrize("seed", range(2, 45))
 def test_many(seed: int) -> None:
     compare(seed)
 
