@@ -28,8 +28,8 @@ from reparam.geometry.bernstein import bernstein
 from reparam.geometry.body import homogeneous
 from reparam.geometry.camera import Camera, View, frame
 from reparam.geometry.evaluate import sample_surface
+from reparam.geometry.extraction import surface_to_bezier
 from reparam.geometry.net import Array
-from reparam.geometry.nurbs import surface_to_bezier
 from reparam.gpu.accuracy import Drawn, deviations
 from reparam.gpu.adaptive import Tolerance
 from reparam.scenes.layers import Patches

@@ -30,8 +30,8 @@ from reparam.evaluators.nurbs_properties import View
 from reparam.evaluators.sampling import steps
 from reparam.evaluators.splines import Nurbs
 from reparam.evaluators.tessellations import Tessellation, evaluate_at, read_float64, tessellate
+from reparam.geometry.extraction import restricted
 from reparam.geometry.net import Array
-from reparam.geometry.nurbs import restricted
 
 UNIT = [0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0]
 HILL = [[(2 * u - 3, 2 * v - 3, 3 if u in (1, 2) and v in (1, 2) else -3) for v in range(4)]

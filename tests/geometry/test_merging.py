@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from reparam.geometry.evaluate import evaluate
+from reparam.geometry.extraction import restricted
 from reparam.geometry.layout import layout_nets
 from reparam.geometry.merging import CENTRES, merging
 from reparam.geometry.meshes import MESHES
 from reparam.geometry.net import Array
-from reparam.geometry.nurbs import restricted
 from reparam.geometry.surface_spline import surface_spline
 
 QUARTERS = np.array([[0.0, 0.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]])

@@ -10,6 +10,7 @@ import pytest
 
 from reparam.geometry.bernstein import bernstein
 from reparam.geometry.evaluate import evaluate, project
+from reparam.geometry.extraction import curve_to_bezier, extraction, restricted, surface_to_bezier
 from reparam.geometry.net import Array
 from reparam.geometry.nurbs import (
     KnotError,
@@ -18,15 +19,11 @@ from reparam.geometry.nurbs import (
     breakpoints,
     check_knots,
     clamped_knots,
-    curve_to_bezier,
     domain,
     evaluate_curve,
     evaluate_surface,
-    extraction,
     find_span,
     insert_knot,
-    restricted,
-    surface_to_bezier,
 )
 
 S2 = np.sqrt(0.5)

@@ -9,10 +9,10 @@ import pytest
 from numpy.polynomial import polynomial
 
 from reparam.geometry.body import Patch, body
+from reparam.geometry.extraction import restricted
 from reparam.geometry.merging import merging
 from reparam.geometry.meshes import MESHES
 from reparam.geometry.net import Array, control_net, raise_degree
-from reparam.geometry.nurbs import restricted
 from reparam.geometry.patch_joins import fold, joins
 from reparam.geometry.surface_spline import surface_spline
 

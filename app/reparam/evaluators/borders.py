@@ -20,8 +20,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..geometry.extraction import restricted
 from ..geometry.net import Array
-from ..geometry.nurbs import restricted
 from .criteria import Criterion, criterion
 from .sampling import Steps, steps
 from .splines import Nurbs

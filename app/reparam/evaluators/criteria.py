@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..geometry.derivative_bounds import bounds, directional_bound
+from ..geometry.extraction import restricted
 from ..geometry.net import Array
-from ..geometry.nurbs import restricted
 from .glu_constants import (
     GLU_DOMAIN_DISTANCE,
     GLU_OBJECT_PATH_LENGTH,

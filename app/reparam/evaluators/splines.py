@@ -15,8 +15,9 @@ from functools import cached_property
 
 import numpy as np
 
+from ..geometry.extraction import curve_to_bezier, extraction_between
 from ..geometry.net import Array
-from ..geometry.nurbs import breakpoints, curve_to_bezier, domain, extraction_between
+from ..geometry.nurbs import breakpoints, domain
 from ..geometry.trimming import TrimRegion, trim_region
 from .maps import FILL, Attribute, Target
 from .nurbs_properties import UNLOADED, Properties, View

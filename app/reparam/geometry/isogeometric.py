@@ -20,8 +20,8 @@ from numpy.typing import ArrayLike
 
 from .bernstein import bernstein, bernstein_derivative
 from .evaluate import evaluate, evaluate_derivatives
+from .extraction import extraction, surface_to_bezier
 from .net import Array
-from .nurbs import extraction, surface_to_bezier
 
 Function = Callable[[Array, Array], Array]
 

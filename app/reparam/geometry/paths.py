@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from .arclength import TABLE, ArcLength
 from .bernstein import bernstein, bernstein_derivative
-from .nurbs import clamped_knots, curve_to_bezier
+from .extraction import curve_to_bezier
+from .nurbs import clamped_knots
 
 Array = NDArray[np.float64]
 

@@ -16,9 +16,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .extraction import curve_to_bezier
 from .jets import End, rational_jet
 from .net import raise_degree
-from .nurbs import clamped_knots, curve_to_bezier
+from .nurbs import clamped_knots
 
 Array = NDArray[np.float64]
 

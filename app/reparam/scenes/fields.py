@@ -15,10 +15,10 @@ from functools import lru_cache
 import numpy as np
 
 from ..geometry.evaluate import evaluate, project
+from ..geometry.extraction import surface_to_bezier
 from ..geometry.formula import Formula, parse
 from ..geometry.isogeometric import Solution, solve
 from ..geometry.net import Array, control_net
-from ..geometry.nurbs import surface_to_bezier
 from ..geometry.planar_maps import R
 from .remember import remember
 

@@ -8,7 +8,7 @@ from ...evaluators.constants import GL_MAP2_VERTEX_4
 from ...evaluators.glu import gluBeginSurface, gluEndSurface, gluNurbsSurface
 from ...evaluators.light import Light
 from ...geometry.evaluate import sample_surface
-from ...geometry.nurbs import surface_to_bezier
+from ...geometry.extraction import surface_to_bezier
 from .. import palette
 from ..layers import Array, ControlNet, Figure, Space
 from ..nurbs_programs import (

@@ -14,12 +14,12 @@ from typing import Annotated, Any
 import numpy as np
 
 from ...geometry.curve import curve_net
+from ...geometry.extraction import curve_to_bezier
 from ...geometry.jets import spline_jet
 from ...geometry.nurbs import (
     KnotError,
     basis_functions,
     check_knots,
-    curve_to_bezier,
     domain,
     evaluate_curve,
     insert_knot,
