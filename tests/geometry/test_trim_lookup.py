@@ -61,7 +61,7 @@ def supersampled(
 
 
 @pytest.mark.parametrize("name", ["red book", "cusps", "slivers", "blobs", "over the border"])
-@pytest.mark.parametrize("turn", [0.0, 0.5, -2.3])
+@pytest.mark.parametrize("turn", [0.5, -2.3])
 def test_coverage_is_what_many_samples_say(name: str, turn: float) -> None:
     region = region_of(name)
     size, mirror = 1.0 / 300.0, -1.0 if turn < 0.0 else 1.0
