@@ -48,11 +48,14 @@ def add_drawing_options(command: argparse.ArgumentParser, size: str) -> None:
     )
     command.add_argument(
         "--tolerance",
+        nargs="?",
+        const="0.5",
         type=lambda text: f"tolerance={text}",
         action="append",
         dest="assignments",
         metavar="PX",
-        help="so fine that no drawn point is off by more pixels; 0: the level decides",
+        help="so fine that no drawn point is off by more pixels, half a one if no number is given; "
+        "0: the level decides",
     )
 
 
