@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from truth import random_nets
@@ -9,10 +11,11 @@ from truth import random_nets
 from reparam.geometry.camera import Camera, View, frame
 from reparam.geometry.evaluate import sample_surface
 from reparam.geometry.facing import faces_away
-from reparam.geometry.levels import bends, fewest_steps, out_of_view, pixels_a_unit
+from reparam.geometry.levels import bends, box_corners, fewest_steps, out_of_view, pixels_a_unit
 from reparam.geometry.meshes import MESHES
 from reparam.geometry.net import Array
 from reparam.geometry.surface_spline import surface_spline
+from reparam.gpu.adaptive import Tolerance
 from reparam.gpu.fineness import Fineness
 from reparam.scenes.layers import Patches, Picture, Ramp, Texture
 from reparam.snapshot import Studio
@@ -101,3 +104,28 @@ def test_of_a_solid_body_what_faces_away_is_left_out(
     assert np.count_nonzero(left_out != expected) <= 3  # float32
     assert (found[~left_out] == whole[~left_out]).all()
     assert 0.3 < left_out.mean() < 0.6
+
+
+def test_a_layer_beside_the_picture_is_not_looked_at(
+    studio: Studio, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    nets = random_nets(np.random.default_rng(6), (2, 2), True, 9)
+    adaptive, tolerance = studio.painter.surfaces.adaptive, Tolerance(TOLERANCE, SIZE)
+    camera = view(nets)
+    right = camera.rotation[0] * camera.half_width
+    looked = adaptive.plan(Patches(nets), camera, "vertex", tolerance)
+    assert len(looked.patches) > 0
+    monkeypatch.setattr(Fineness, "read", None)
+    for share in (-4.0, 4.0):
+        beside = replace(camera, center=camera.center + share * right)
+        assert len(adaptive.plan(Patches(nets), beside, "vertex", tolerance).patches) == 0
+
+
+def test_boxes_out_of_view() -> None:
+    nets = random_nets(np.random.default_rng(7), (2, 3), True, 20)
+    corners = box_corners(nets)
+    points = (nets[..., :3] / nets[..., 3:]).reshape(-1, 3)
+    assert (corners.min((0, 1)) == [*points.min(0), 1.0]).all()
+    assert (corners.max((0, 1)) == [*points.max(0), 1.0]).all()
+    nets[3, 1, 2, 3] = 0.0
+    assert not out_of_view(box_corners(nets) + 99.0)

@@ -280,3 +280,14 @@ def out_of_view(clip: Array) -> NDArray[np.bool_]:
     w = clip[..., 3:]
     beyond = np.concatenate([clip[..., :3] > w, clip[..., :3] < -w], -1)
     return np.asarray(beyond.all((-3, -2)).any(-1) & (w > 0.0).all((-3, -2, -1)))
+
+
+def box_corners(net: Array) -> Array:
+    """A box around nets (..., 4), as a net (2, 4, 4) of its corners for `out_of_view`; where a
+    weight is not positive NaN, which is never out of view."""
+    if not (net[..., 3] > 0.0).all():
+        return np.full((2, 4, 4), np.nan)
+    points = (net[..., :3] / net[..., 3:]).reshape(-1, 3)
+    ends = np.stack([points.min(0), points.max(0)])
+    corners = np.stack(np.meshgrid(*ends.T, [1.0], indexing="ij"), -1)
+    return np.asarray(corners.reshape(2, 4, 4))

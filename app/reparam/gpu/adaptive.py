@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..geometry.camera import Camera
 from ..geometry.edge_levels import STEPS, edge_levels, edge_numbers, grid_levels, in_tiles
-from ..geometry.levels import FINEST
+from ..geometry.levels import FINEST, box_corners, out_of_view
 from ..geometry.net import Array
 from ..scenes.layers import Patches
 from .context import Capabilities
@@ -86,12 +86,14 @@ class Adaptive:
         self._fineness = Fineness(ctx, programs, evaluation)
         self._software = capabilities.software
         self._edges: Kept[tuple[list[Array], NDArray[np.int32]]] = Kept(lambda _: None)
+        self._boxes: Kept[Array] = Kept(lambda _: None)
         self._plans: Kept[tuple[Body, list[Plan]]] = Kept(lambda _: None, frames=1)
         self._grids: dict[tuple[int, int, bool], tuple[moderngl.Buffer, moderngl.Buffer]] = {}
 
     def sweep(self) -> None:
         """End of a frame."""
         self._edges.sweep()
+        self._boxes.sweep()
         self._plans.sweep()
 
     def plan(self, layer: Patches, camera: Camera, evaluator: str, tolerance: Tolerance) -> Plan:
@@ -107,7 +109,12 @@ class Adaptive:
 
     def _plan(self, body: Body, camera: Camera, evaluator: str, tolerance: Tolerance) -> list[Plan]:
         viewport, pixels = tolerance.viewport, tolerance.pixels
-        asked = [self._fineness.read(layer, camera, viewport, pixels) for layer in body]
+        asked = [
+            np.zeros((patch_count(layer.net), 2), np.int64)
+            if self._out_of_view(layer, camera)
+            else self._fineness.read(layer, camera, viewport, pixels)
+            for layer in body
+        ]
         steps, owner = np.concatenate(asked), np.repeat(np.arange(len(body)), list(map(len, asked)))
         seen = np.flatnonzero(steps.any(-1))
         numbers = self._numbers([layer.net for layer in body])[seen]
@@ -125,6 +132,11 @@ class Adaptive:
             plans.append(Plan(seen[here] - before, inner[here], edges[here], tiles[here]))
             before += len(own)
         return plans
+
+    def _out_of_view(self, layer: Patches, camera: Camera) -> bool:
+        """Whether all of a layer is: then no patch of it need be looked at."""
+        box = self._boxes.get(layer.net, None, lambda: box_corners(layer.net))
+        return bool(out_of_view(box @ camera.clip_from_model().T).all())
 
     def _numbers(self, nets: list[Array]) -> NDArray[np.int32]:
         """Of the edges of all nets, which are kept with them."""
