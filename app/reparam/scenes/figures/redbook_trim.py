@@ -88,8 +88,7 @@ def redbook_trim(
         layers = (drawn(surface, LIGHT),)
     layers = (*layers, ControlNet(net, palette.CONTROL_NET))
     caption = (
-        "gluBeginTrim .. gluPwlCurve(edgePt) .. gluEndTrim;  "
-        "gluBeginTrim .. gluNurbsCurve(curvePt) .. gluPwlCurve(pwlPt) .. gluEndTrim;",
+        "gluPwlCurve(edgePt);   gluNurbsCurve(curvePt), gluPwlCurve(pwlPt);",
         properties_caption(sampling, pixels, display),
     )
     domain = Space("domain", plane(-0.14, -0.14, 1.08, 1.08), domain_layers(hole))
