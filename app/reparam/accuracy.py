@@ -71,7 +71,7 @@ def measure(studio: Studio, subject: Subject, size: tuple[int, int]) -> Iterator
     if studio.evaluator:
         evaluators: tuple[str, ...] = (painter.capabilities.evaluator(studio.evaluator),)
     else:
-        evaluators = ("vertex", "tessellation")[: 1 + painter.capabilities.tessellation]
+        evaluators = painter.capabilities.evaluators
     patches = [layer for layer in panel.space.layers if isinstance(layer, Patches)]
     layers = [replace(layer, solid=False) for layer in patches]  # alone they have another outline
     for number, layer in enumerate(layers, start=1):

@@ -42,7 +42,7 @@ def rows(pairs: int) -> Rows:
     tolerance = Tolerance(0.5, SIZE)
     surfaces, turns = studio.painter.surfaces, count()
     with frames(studio, SIZE) as timed:
-        for evaluator in ("vertex", "tessellation")[: 1 + studio.painter.capabilities.tessellation]:
+        for evaluator in studio.painter.capabilities.evaluators:
 
             def draw(
                 layer: Patches = body, seen: Camera = camera, evaluator: str = evaluator

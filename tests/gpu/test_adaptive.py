@@ -233,6 +233,7 @@ def test_a_bent_patch_beside_a_flat_one(
     assert (counts(texture) == 1.0).all()
 
 
+@pytest.mark.tessellation
 def test_many_vertices_in_one_draw(studio: Studio) -> None:
     """llvmpipe counts them by 16 bits."""
     nets = random_nets(np.random.default_rng(9), (2, 2), False, 25)

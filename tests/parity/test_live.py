@@ -124,14 +124,14 @@ def fed(case: parity.Case) -> set[str]:
 def rows(
     studio: Studio, real: RealOpenGL, seeds: range, orders: list[int], dyadic: bool = True
 ) -> list[parity.Row]:
-    found = []
+    found, paths = [], studio.painter.capabilities.evaluators
     for seed in seeds:
         case = random_case(seed, orders, dyadic)
         with real.current():
             outputs = real.run(case["kind"], case["inputs"])
         case["outputs"] = {name: outputs[name].tolist() for name in fed(case)}
         name = f"{case['kind']} {seed}"
-        found += [parity.run_case(studio, name, case, path) for path in parity.EVALUATORS]
+        found += [parity.run_case(studio, name, case, path) for path in paths]
     return found
 
 

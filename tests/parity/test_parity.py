@@ -17,7 +17,7 @@ CASES = parity.read_cases(parity.CASES)
 
 @pytest.mark.parametrize("name", CASES)
 def test_case(studio: Studio, name: str) -> None:
-    for evaluator in parity.EVALUATORS:
+    for evaluator in studio.painter.capabilities.evaluators:
         row = parity.run_case(studio, name, CASES[name], evaluator)
         assert row.ok, row.line()
 
@@ -44,7 +44,7 @@ def test_an_altered_number_fails(
 ) -> None:
     case = deepcopy(CASES[name])
     case["outputs"][field][row][column] += 1e-4
-    for evaluator in parity.EVALUATORS:
+    for evaluator in studio.painter.capabilities.evaluators:
         assert not parity.run_case(studio, name, case, evaluator).ok
 
 
@@ -63,15 +63,16 @@ def test_missing_vertices_and_unknown_kinds_fail(studio: Studio) -> None:
 def test_the_command_counts_and_exits(
     studio: Studio, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    paths = len(studio.painter.capabilities.evaluators)
     assert parity.main([str(tmp_path)], studio) == 1
     assert "found none" in capsys.readouterr().err
     shutil.copy(parity.CASES / "map1_order5.json", tmp_path / "other.json")
     assert parity.main([str(tmp_path)], studio) == 0
-    assert "2 of 2 rows ok, 1 cases" in capsys.readouterr().out
+    assert f"{paths} of {paths} rows ok, 1 cases" in capsys.readouterr().out
     case = deepcopy(CASES["map1_order5"])
     case["outputs"]["pos"][3][0] -= 1e-4
     (tmp_path / "altered.json").write_text(json.dumps(case))
     assert parity.main([str(tmp_path)], studio) == 1
-    assert "2 of 4 rows ok, 2 cases" in capsys.readouterr().out
+    assert f"{paths} of {2 * paths} rows ok, 2 cases" in capsys.readouterr().out
     (tmp_path / "altered.json").write_text("{")
     assert parity.main([str(tmp_path)], studio) == 1

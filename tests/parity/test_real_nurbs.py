@@ -159,7 +159,7 @@ def test_many(studio: Studio, seed: int) -> None:
     """Thirty of each sort."""
     for kind, sorts in SORTS.items():
         for make in sorts:
-            compare(studio, kind, make, seed, parity.EVALUATORS)
+            compare(studio, kind, make, seed, studio.painter.capabilities.evaluators)
 
 
 KNOTS = [0.0, 0.0, 1.0, 1.0]

@@ -34,6 +34,11 @@ class Capabilities:
     anisotropy: float
     largest: int  # width and height of a texture or renderbuffer
 
+    @property
+    def evaluators(self) -> tuple[str, ...]:
+        """Those that run here."""
+        return ("vertex", "tessellation") if self.tessellation else ("vertex",)
+
     def evaluator(self, wanted: str | None) -> str:
         """The evaluator to use: the wanted one, else tessellation on a GPU that has it."""
         if wanted == "tessellation" and not self.tessellation:
