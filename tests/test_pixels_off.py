@@ -37,9 +37,9 @@ def test_coarse_levels_are_seen(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_the_table(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["accuracy", "fig4", "--evaluator", "tessellation"]) == 0
+    assert main(["accuracy", "fig4", "--evaluator", "vertex"]) == 0
     (line,) = capsys.readouterr().out.splitlines()
-    assert line.startswith("ok   layer 1 tessellation")
+    assert line.startswith("ok   layer 1 vertex")
     assert line.endswith("one level")
 
 
