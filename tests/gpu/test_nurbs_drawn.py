@@ -35,8 +35,9 @@ from reparam.evaluators.glu import (
     gluNurbsSurface,
     gluPwlCurve,
 )
+from reparam.evaluators.nurbs_parts import recording
 from reparam.evaluators.recording import Recording
-from reparam.evaluators.tessellations import Tessellation, recording
+from reparam.evaluators.tessellations import Tessellation
 from reparam.geometry.net import Array
 from reparam.geometry.trimming import trim_region
 from reparam.gpu.targets import Target

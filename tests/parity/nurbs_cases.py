@@ -19,12 +19,12 @@ from numpy.typing import NDArray
 from reparam import evaluators
 from reparam.evaluators import Evaluators, glu
 from reparam.evaluators.grids import primitive_indices
+from reparam.evaluators.nurbs_parts import parts_at
 from reparam.evaluators.splines import Nurbs
 from reparam.evaluators.tessellations import (
     Read,
     Tessellation,
     evaluate_at,
-    parts_at,
     read_float64,
     tessellate,
 )

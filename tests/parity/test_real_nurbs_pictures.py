@@ -28,7 +28,8 @@ from reparam.evaluators import (
     Light,
 )
 from reparam.evaluators.grids import primitive_indices
-from reparam.evaluators.tessellations import read_float64, recording, tessellate
+from reparam.evaluators.nurbs_parts import recording
+from reparam.evaluators.tessellations import read_float64, tessellate
 from reparam.geometry.net import Array
 from reparam.scenes import nurbs_programs as book
 from reparam.scenes.figures import redbook_nurbs, redbook_trim

@@ -34,7 +34,7 @@ from reparam.evaluators.glu import (
     NurbsRenderer,
 )
 from reparam.evaluators.light import Light
-from reparam.evaluators.tessellations import recording
+from reparam.evaluators.nurbs_parts import recording
 from reparam.geometry.net import Array
 from reparam.scenes.figures.redbook_trim import BORDER, HOLE
 from reparam.scenes.nurbs_programs import HILL, KNOTS, affine, perspective

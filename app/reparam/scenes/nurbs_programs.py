@@ -12,10 +12,10 @@ import numpy as np
 
 from ..evaluators import glu_constants as k
 from ..evaluators.light import Light
+from ..evaluators.nurbs_parts import recording
 from ..evaluators.nurbs_renderer import NurbsRenderer
 from ..evaluators.recording import Current
 from ..evaluators.splines import Nurbs
-from ..evaluators.tessellations import recording
 from ..geometry.camera import View, orbit_rotation
 from . import palette
 from .layers import Array, Recorded
