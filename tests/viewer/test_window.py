@@ -40,6 +40,22 @@ def window(screen: Screen, tmp_path: Path) -> Iterator[Window]:
     opened.process.wait()
 
 
+@pytest.fixture
+def older(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("MESA_GL_VERSION_OVERRIDE", "3.3")
+    monkeypatch.setenv("MESA_GLSL_VERSION_OVERRIDE", "330")
+
+
+@pytest.mark.usefixtures("older")
+def test_a_window_with_opengl_3_3(studio: Studio, window: Window) -> None:
+    """Before 4.0 the window's own buffer is no name for glDrawBuffers."""
+    subject = open_subject("fig5")
+    assert np.array_equal(window.screenshot(), studio.draw(subject, SIZE))
+    window.press("t", "texture = r")
+    assert np.array_equal(window.screenshot(), studio.draw(subject.changed("texture", "r"), SIZE))
+    assert not any(complaint in window.log.read_text() for complaint in COMPLAINTS)
+
+
 def test_files_dropped_a_size_of_nothing_and_the_cost_of_a_drag(
     screen: Screen, tmp_path: Path
 ) -> None:

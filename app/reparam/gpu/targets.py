@@ -63,14 +63,20 @@ class Target:
 
     def resolve(self) -> None:
         """The frame is whole: average its samples into the picture, which stays until the next."""
-        self._ctx.copy_framebuffer(self.resolved, self.framebuffer)
+        self._copy(self.resolved, self.framebuffer)
 
     def show(self) -> None:
         """The picture onto the window's framebuffer, which is bound from then on."""
         screen = self._ctx.detect_framebuffer(0)
         screen.viewport = (0, 0, *self.size)
-        self._ctx.copy_framebuffer(screen, self.resolved)
+        self._copy(screen, self.resolved)
         screen.use()
+
+    def _copy(self, to: moderngl.Framebuffer, source: moderngl.Framebuffer) -> None:
+        # moderngl then restores the bound framebuffer's buffers by a call that knows no GL_BACK,
+        # the window's, before OpenGL 4.0: so one of ours is bound.
+        source.use()
+        self._ctx.copy_framebuffer(to, source)
 
     def pixels(self) -> NDArray[np.uint8]:
         """The picture (height, width, 3), top row first."""
