@@ -97,6 +97,8 @@ def test_rates_as_plots() -> None:
         assert float(texts[-2].split()[-1]) == pytest.approx(rate, abs=0.05)
     with pytest.raises(UsageError, match="show: expected field or facets, since torsion is"):
         subject("show=rates").figure()
+    with pytest.raises(UsageError, match="g: expected a formula in x, y, found"):
+        subject("g=sin(").figure()  # though the torsion is shown
 
 
 def test_the_cursor_counts_by_the_square_not_by_its_pieces() -> None:

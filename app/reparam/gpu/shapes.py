@@ -30,6 +30,7 @@ from .region import TITLE_LINE
 BAR, STEPS = 110.0, 33  # length of the bar of colours, in figure units, and its pieces
 SWATCH, WORDS, LINE = 9.0, 13.0, 17.0
 INSET = 10.0  # from the corner of the space
+AIR = 5.0  # of a title's line, above its letters
 VEIL = 4.0  # how far it reaches beyond words and bar
 FACTORS = (1.1, 1.2, 1.5, 2.0, 4.0, 8.0, 16.0, 64.0, 256.0, 1024.0)  # at which colours are full
 SAMPLES = 1 << 14  # of a layer, at most, that tell which values occur
@@ -112,7 +113,7 @@ def draw_legend(
     room for that."""
     layers = shaded(panel.space, shading)
     left, top = panel.region.left + INSET * unit, panel.region.top - INSET * unit
-    above = panel.region.top + (TITLE_LINE + 3.0 * LINE) * unit
+    above = panel.region.top + (TITLE_LINE - AIR + 3.0 * LINE) * unit
     if panel.space.title and panel.part.top >= above:
         top = above
     if not layers:

@@ -101,7 +101,8 @@ def domain(
             f"{name}: expected {expected}, since torsion is computed; {needs} needs field=given"
         )
     omega = omega_of(points)
-    sought = torsion(omega) if field == "torsion" else given(g, omega)
+    other = given(g, omega)  # a formula that is none is refused at once
+    sought = torsion(omega) if field == "torsion" else other
     seen = (
         over_spans(sought, degree, spans) if attach == "identity" else attached_by_r(sought, spans)
     )
