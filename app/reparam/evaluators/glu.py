@@ -2,7 +2,8 @@
 
     from reparam.evaluators.glu import *
 
-Each function is the method of its name of a NurbsRenderer, which C calls nobj.
+Each function is the method of its name of a NurbsRenderer, which C calls nobj. Besides, what it
+recorded can be had as what `Evaluators.draw` draws, as arrays, and at any (u, v).
 """
 
 from __future__ import annotations
@@ -11,7 +12,9 @@ from . import glu_constants
 from .glu_constants import *  # noqa: F403
 from .glu_errors import *  # noqa: F403
 from .glu_errors import NURBS_ERRORS, GluError, GluInvalidEnum, GluInvalidValue, NurbsError
+from .nurbs_parts import recording
 from .nurbs_renderer import NurbsRenderer
+from .tessellations import evaluate_at, tessellate
 
 gluNewNurbsRenderer = NurbsRenderer
 gluBeginSurface = NurbsRenderer.gluBeginSurface
@@ -48,6 +51,9 @@ __all__ = [
     "GluInvalidValue",
     "NurbsError",
     "NurbsRenderer",
+    "evaluate_at",
+    "recording",
+    "tessellate",
     *(name for name in vars(glu_constants) if name.startswith("GLU_")),
     *(error.__name__ for error in NURBS_ERRORS.values()),
     *(name for name in list(globals()) if name.startswith("glu") and name[3:4].isupper()),
