@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from driver import SECONDS, SIZE, Screen, Window, virtual_screen
+from driver import SECONDS, SIZE, Screen, Window, same_picture, virtual_screen
 from PIL import Image
 from test_panel import Sheet
 
@@ -51,7 +51,7 @@ def window(shared: Window) -> Window:
 
 def test_keys_change_the_picture_as_the_command_line_does(window: Window, studio: Studio) -> None:
     subject = open_subject("fig5")
-    assert np.array_equal(window.screenshot(), studio.draw(subject, SIZE))
+    assert same_picture(window.screenshot(), studio.draw(subject, SIZE))
     for key, name, value in (
         ("t", "texture", "r"),
         ("c", "checks", 16),
@@ -62,7 +62,7 @@ def test_keys_change_the_picture_as_the_command_line_does(window: Window, studio
         shown = "on" if value is True else value
         window.press(key, f"{name} = {shown}")
         subject = subject.changed(name, value)
-        assert np.array_equal(window.screenshot(), studio.draw(subject, SIZE)), name
+        assert same_picture(window.screenshot(), studio.draw(subject, SIZE)), name
     window.press("F5", "shaders reloaded")
     window.press("4", "fig4: ")
     window.press("5", "fig5: ")
@@ -74,7 +74,7 @@ def test_a_dragged_point_moves_alone_and_undo_brings_the_picture_back(
     subject = open_subject("fig5").changed("texture", "r")
     window.press("t", "texture = r")
     before = window.screenshot()
-    assert np.array_equal(before, studio.draw(subject, SIZE))
+    assert same_picture(before, studio.draw(subject, SIZE))
     panel = arrange(subject.figure(), SIZE, {}, False, False)[0]
     region = panel.region
     x, y = panel.camera.pixels(np.zeros(3), region.width, region.height)
@@ -85,12 +85,12 @@ def test_a_dragged_point_moves_alone_and_undo_brings_the_picture_back(
     pixel = panel.camera.pixels(np.array([*points[1, 1], 0.0]), region.width, region.height)
     assert np.abs(pixel - (x, y) - (24.0, 16.0)).max() <= 1.0
     moved = studio.draw(subject.changed("points", points), SIZE)
-    assert np.array_equal(window.screenshot(), moved)
-    assert not np.array_equal(moved, before)
+    assert same_picture(window.screenshot(), moved)
+    assert not same_picture(moved, before)
     window.press("ctrl+z", "undone: points")
-    assert np.array_equal(window.screenshot(), before)
+    assert same_picture(window.screenshot(), before)
     window.press("ctrl+shift+z", "redone: points")
-    assert np.array_equal(window.screenshot(), moved)
+    assert same_picture(window.screenshot(), moved)
 
 
 def test_what_is_kept_draws_the_same_picture_without_a_window(
@@ -105,34 +105,34 @@ def test_what_is_kept_draws_the_same_picture_without_a_window(
     picture = window.screenshot()
     window.press("ctrl+s", "saved ")
     saved = window.log.read_text().rsplit("saved ", 1)[1].splitlines()[0]
-    assert np.array_equal(studio.draw(open_subject(saved), SIZE), picture)
+    assert same_picture(studio.draw(open_subject(saved), SIZE), picture)
     window.press("ctrl+c", "copied: ")
     words = shlex.split(window.log.read_text().rsplit("copied: ", 1)[1].splitlines()[0])
     assert "--view" in words
     command = [sys.executable, "-m", *words]
     subprocess.run(command, cwd=window.folder, env=window.environment, check=True)
     rendered = np.asarray(Image.open(window.folder / words[words.index("-o") + 1]))
-    assert np.array_equal(rendered, picture)
+    assert same_picture(rendered, picture)
     window.type_line("shift+s", "", "saved ")  # twice the size is offered
     large = window.last_picture()
-    assert np.array_equal(large, studio.draw(open_subject(saved), (2 * SIZE[0], 2 * SIZE[1])))
+    assert same_picture(large, studio.draw(open_subject(saved), (2 * SIZE[0], 2 * SIZE[1])))
     window.type_line("Return", "checks = 0", "expected a whole number from 1 to 256")
     window.xdotool_key("Escape")  # leaves the line, not the window
-    assert np.array_equal(window.screenshot(), picture)
+    assert same_picture(window.screenshot(), picture)
 
 
 def test_the_divider_is_dragged(window: Window, studio: Studio) -> None:
     subject = open_subject("fig5").changed("compare", "texture=identity|r")
     window.press("x", "compare = texture=identity|r")
-    assert np.array_equal(window.screenshot(), studio.draw(subject, SIZE))
+    assert same_picture(window.screenshot(), studio.draw(subject, SIZE))
     window.drag((SIZE[0] / 2 + 2, SIZE[1] * 0.7), (-82.0, 10.0), "divider = 0.25")
     moved = subject.changed("divider", 0.25)
-    assert np.array_equal(window.screenshot(), studio.draw(moved, SIZE))
+    assert same_picture(window.screenshot(), studio.draw(moved, SIZE))
     window.press("ctrl+z", "undone: divider")
     window.press("b", "blend to 1")
     until = time.monotonic() + SECONDS
     faded = studio.draw(subject.changed("blend", 1.0), SIZE)
-    while not np.array_equal(window.screenshot(), faded):
+    while not same_picture(window.screenshot(), faded):
         assert time.monotonic() < until
 
 
@@ -152,7 +152,7 @@ def test_the_mouse_marks_one_point_in_three_spaces(tmp_path: Path, studio: Studi
             u, v = invert(net, camera.in_view(pixel, region.width, region.height))
             assert (u, v) == pytest.approx(at, abs=0.05)
             expected = studio.draw(subject.changed("cursor", f"{u},{v}"), size)
-            assert np.array_equal(window.screenshot(), expected), name
+            assert same_picture(window.screenshot(), expected), name
         window.press("d", "its domain is there already")
         window.press("5", "fig5: ")
         window.press("d", "linked = on")
@@ -170,10 +170,10 @@ def test_the_panel_and_a_key_change_the_same_parameter(
         window = Window(own, tmp_path, "--size", f"{size[0]}x{size[1]}")
         window.point((100, 100))
         window.xdotool_key("Tab")
-        assert np.array_equal(window.screenshot(), studio.draw(subject, beside))
+        assert same_picture(window.screenshot(), studio.draw(subject, beside))
         window.click(places["##net"], "net = on")
         on = subject.changed("net", True)
-        assert np.array_equal(window.screenshot(), studio.draw(on, beside))
+        assert same_picture(window.screenshot(), studio.draw(on, beside))
         window.press("n", "net = off")
         window.click(places["##net"], "net = on")
         window.click(places["r##texture"], "texture = r")
@@ -184,7 +184,7 @@ def test_the_panel_and_a_key_change_the_same_parameter(
         window.xdotool_key("Escape")
         window.xdotool_key("Tab")
         final = on.changed("texture", "r")
-        assert np.array_equal(window.screenshot(), studio.draw(final, size))
+        assert same_picture(window.screenshot(), studio.draw(final, size))
         assert window.close() == 0
 
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from driver import SECONDS, SIZE, Screen, Window, virtual_screen
+from driver import SECONDS, SIZE, Screen, Window, same_picture, virtual_screen
 
 from reparam.gpu.arrangement import arrange
 from reparam.scenes.registry import scene_names
@@ -50,9 +50,9 @@ def older(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_window_with_opengl_3_3(studio: Studio, window: Window) -> None:
     """Before 4.0 the window's own buffer is no name for glDrawBuffers."""
     subject = open_subject("fig5")
-    assert np.array_equal(window.screenshot(), studio.draw(subject, SIZE))
+    assert same_picture(window.screenshot(), studio.draw(subject, SIZE))
     window.press("t", "texture = r")
-    assert np.array_equal(window.screenshot(), studio.draw(subject.changed("texture", "r"), SIZE))
+    assert same_picture(window.screenshot(), studio.draw(subject.changed("texture", "r"), SIZE))
     assert not any(complaint in window.log.read_text() for complaint in COMPLAINTS)
 
 
@@ -118,7 +118,7 @@ def test_a_screen_of_twice_the_density(tmp_path: Path) -> None:
                     before = opened.screenshot()
                     opened.drag(start, (20.0, 0.0))
                     opened.press("r", "view reset")
-                    assert np.array_equal(opened.screenshot(), before)
+                    assert same_picture(opened.screenshot(), before)
                 assert opened.close() == 0
             finally:
                 opened.process.kill()
@@ -143,7 +143,7 @@ def test_every_key_of_the_table(window: Window, screen: Screen, studio: Studio) 
         window.press(key, notice)
         for name, value in values.items():
             subject = subject.changed(name, value)
-        assert np.array_equal(window.screenshot(), studio.draw(subject, SIZE)), action
+        assert same_picture(window.screenshot(), studio.draw(subject, SIZE)), action
 
     def follow(action: str, key: str, notice: str, there: Subject) -> None:
         nonlocal subject
@@ -186,12 +186,12 @@ def test_every_key_of_the_table(window: Window, screen: Screen, studio: Studio) 
     window.press("m", "morph to 0")
     time.sleep(1.5)
     subject = subject.changed("morph", 0.0)
-    assert np.array_equal(window.screenshot(), studio.draw(subject, SIZE))
+    assert same_picture(window.screenshot(), studio.draw(subject, SIZE))
     tried.add("play")
     window.press("space", "animating morph")
     time.sleep(0.5)
     window.press("space", "morph = ")
-    assert not np.array_equal(window.screenshot(), studio.draw(subject, SIZE))
+    assert not same_picture(window.screenshot(), studio.draw(subject, SIZE))
     window.point((SIZE[0] / 3, SIZE[1] / 3))
     window.xdotool("click", "4")
     press("reset", "r", "view reset", morph=subject_morph(window))
@@ -201,7 +201,7 @@ def test_every_key_of_the_table(window: Window, screen: Screen, studio: Studio) 
     time.sleep(4.0)
     faded = subject.changed("compare", "texture=identity|r").changed("divider", 1.0)
     faded = faded.changed("blend", 1.0)
-    assert np.array_equal(window.screenshot(), studio.draw(faded, SIZE))
+    assert same_picture(window.screenshot(), studio.draw(faded, SIZE))
     window.press("r", "parameters reset")
     names = scene_names()
     for number in range(1, 10):
@@ -239,7 +239,7 @@ def check_what_only_the_window_shows(window: Window, screen: Screen) -> set[str]
     window.press("ctrl+s", "saved ")
     window.press("ctrl+c", "copied: ")
     window.press("F5", "shaders reloaded")
-    assert np.array_equal(window.screenshot(), picture)
+    assert same_picture(window.screenshot(), picture)
     window.xdotool_key("Tab")
     beside = SIZE[0] - round(WIDEST * SIZE[0])
     assert window.screenshot().shape == (SIZE[1], beside, 3)
@@ -249,7 +249,7 @@ def check_what_only_the_window_shows(window: Window, screen: Screen) -> set[str]
     assert window.screenshot().shape == (600, 800, 3)
     window.xdotool_key("F11")
     time.sleep(1.0)
-    assert np.array_equal(window.screenshot(), picture)
+    assert same_picture(window.screenshot(), picture)
     assert before.shape == (600, 800, 3)
     return {"toggle_help", "type_value", "ask_screenshot", "screenshot", "save_scene",
             "copy_command", "reload_shaders", "toggle_full_screen", "toggle_panel"}  # fmt: skip
@@ -303,7 +303,7 @@ def test_three_hundred_sizes(window: Window, studio: Studio) -> None:
     window.xdotool("windowmap", "--sync", window.id)
     window.xdotool("windowsize", "--sync", window.id, *map(str, SIZE))
     time.sleep(0.5)
-    assert np.array_equal(window.screenshot(), studio.draw(open_subject("fig5"), SIZE))
+    assert same_picture(window.screenshot(), studio.draw(open_subject("fig5"), SIZE))
     assert max(memory[20:]) - max(memory[:10]) < 60 << 20
     assert_no_complaint(window)
     assert window.close() == 0
