@@ -179,8 +179,8 @@ def test_the_panel_and_a_key_change_the_same_parameter(
         window.click(places["r##texture"], "texture = r")
         window.press("t", "texture = identity")
         window.press("ctrl+z", "undone: texture = r")
-        window.click(places["##image"], "")
-        window.xdotool("type", "--delay", "30", "nt4")  # into the field: no key of the window
+        window.point(places["##image"])
+        window.xdotool("click", "1", "type", "--delay", "1", "nt4")  # no keys of the window's
         window.xdotool_key("Escape")
         window.xdotool_key("Tab")
         final = on.changed("texture", "r")

@@ -58,6 +58,7 @@ class Panel:
         self._last = glfw.get_time()
         self._left = False  # a key has just left a field
         self._pressed = False  # the button went down in here
+        self._behind = False  # a click is not laid out yet
         self.shown = False
         self._take_events()
 
@@ -103,6 +104,10 @@ class Panel:
             return
         self._verdicts.step()
         self._frames = max(0, self._frames - 1)
+        self._widgets.draw(self._lay_out())
+
+    def _lay_out(self) -> imgui.ImDrawData:
+        """What Dear ImGui makes of the events since the last time."""
         io, size = imgui.get_io(), glfw.get_window_size(self._window)
         pixels, now = glfw.get_framebuffer_size(self._window), glfw.get_time()
         io.display_size = imgui.ImVec2(*size)
@@ -114,8 +119,9 @@ class Panel:
         if scale != self._style_scale:
             set_style(scale)
             self._style_scale = scale
-        self._widgets.draw(compose(self._parts, size, self._units()))
+        laid_out = compose(self._parts, size, self._units())
         self._left = self._left and io.want_text_input
+        return laid_out
 
     # Events ---------------------------------------------------------------------------------
 
@@ -127,6 +133,7 @@ class Panel:
         """A key went down or up; whether a field has it now."""
         if not self.shown:
             return False
+        self._catch_up()
         io = imgui.get_io()
         for flag, modifier in MODIFIERS:
             io.add_key_event(modifier, bool(mods & flag))
@@ -142,6 +149,12 @@ class Panel:
     def _typing(self) -> bool:
         """Whether a field has the keyboard; a key that leaves it may be known here alone yet."""
         return self.shown and bool(imgui.get_io().want_text_input) and not self._left
+
+    def _catch_up(self) -> None:
+        """Before a key: where frames are slow, the click into its field is not laid out yet."""
+        for _ in range(FRAMES if self._behind else 0):
+            self._lay_out()
+        self._behind = False
 
     def _typed(self, window: Any, code: int) -> None:
         if self._typing():
@@ -181,6 +194,7 @@ class Panel:
         if self.shown and button < 5:
             imgui.get_io().add_mouse_button_event(button, pressed)
             self.touch()
+            self._behind = True
         if pressed:
             self._pressed, self._left = self._here(), False
         if not self._pressed:
@@ -211,7 +225,7 @@ class Panel:
 
 def begin() -> imgui.ImFont:
     """A context of Dear ImGui that writes no files; the headings' face."""
-    imgui.create_context()
+    imgui.set_current_context(imgui.create_context())  # a first one would stay the current one
     io = imgui.get_io()
     io.set_ini_filename("")
     io.set_log_filename("")
