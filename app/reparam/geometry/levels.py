@@ -12,7 +12,7 @@ its linear interpolant by at most
 f_uv and f_vv raised to one degree, whose control points bound it: where they pull apart, as on a
 saddle, they are not added up. (Adding them up is the bound of D. Filip, R. Magedson, R. Markot,
 CAGD 3, 1986: here a third more triangles, and more where it hurts most.) It holds for all triangles
-whose edges go no further than a step each way: adaptive.vert makes such ones where levels change.
+whose edges go no further than a step each way: stitching.py makes such ones where levels change.
 
 Clip coordinates of a rational patch, under any camera, are polynomial in (u,v), and so are those
 drawn in a triangle; the bound is for their quotient.

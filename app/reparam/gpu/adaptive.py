@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.camera import Camera
-from ..geometry.edge_levels import STEPS, edge_levels, edge_numbers, grid_levels, in_tiles
+from ..geometry.edge_levels import edge_levels, edge_numbers, grid_levels, in_tiles
 from ..geometry.levels import FINEST, box_corners, out_of_view
 from ..geometry.net import Array
 from ..scenes.layers import Patches
@@ -20,9 +20,10 @@ from .fineness import MAP_UNIT, Fineness
 from .kept import Kept
 from .nets import NET_UNIT
 from .programs import Program, Programs, degree_defines
+from .stitches import Stitches
 
 HARDWARE_LEVEL = 64  # what every OpenGL 4 promises
-FINEST_GRID = 1024  # of the vertex evaluator, which keeps its grids
+FINEST_GRID = 1024  # of the vertex evaluator
 
 # llvmpipe's tessellator is quadratic in the patches of a draw, and counts vertices by 16 bits.
 SOFTWARE_PATCHES, SOFTWARE_VERTICES = 64, 1 << 16
@@ -46,8 +47,12 @@ class Tolerance:
 
 @dataclass(frozen=True)
 class Plan:
-    """The patches in view (k,), their levels (k, 2), those of their edges (k, 4), at most the
-    patch's own along them, and in how many tiles (k, 2) each is drawn."""
+    """The patches in view (k,), their levels (k, 2), those of their edges (k, 4), and in how many
+    tiles (k, 2) each is drawn.
+
+    An edge has as many steps as the patch along it or, for tessellation, fewer; or, for the vertex
+    evaluator, more.
+    """
 
     patches: Ints
     inner: Ints
@@ -59,8 +64,9 @@ class Plan:
         return Plan(self.patches[index], self.inner[index], self.edges[index], self.tiles[index])
 
     def triangles(self) -> int:
-        """About how many triangles they make: two a cell."""
-        return int(2 * self.inner.prod(-1).sum())
+        """How many they make, those counted that have no area."""
+        more = self.edges - self.inner[:, [1, 0, 1, 0]]
+        return int(2 * self.inner.prod(-1).sum() + np.maximum(more, 0).sum())
 
 
 def uniform_plan(layer: Patches, level: int) -> Plan:
@@ -88,13 +94,14 @@ class Adaptive:
         self._edges: Kept[tuple[list[Array], NDArray[np.int32]]] = Kept(lambda _: None)
         self._boxes: Kept[Array] = Kept(lambda _: None)
         self._plans: Kept[tuple[Body, list[Plan]]] = Kept(lambda _: None, frames=1)
-        self._grids: dict[tuple[int, int, bool], tuple[moderngl.Buffer, moderngl.Buffer]] = {}
+        self._stitches = Stitches(ctx)
 
     def sweep(self) -> None:
         """End of a frame."""
         self._edges.sweep()
         self._boxes.sweep()
         self._plans.sweep()
+        self._stitches.sweep()
 
     def plan(self, layer: Patches, camera: Camera, evaluator: str, tolerance: Tolerance) -> Plan:
         """The levels of a layer's patches in this view."""
@@ -120,11 +127,10 @@ class Adaptive:
         numbers = self._numbers([layer.net for layer in body])[seen]
         steps = np.minimum(steps[seen], FINEST_GRID if evaluator == "vertex" else FINEST)
         edges = edge_levels(steps, numbers)
-        inner = grid_levels(steps, edges)
-        tiles = np.ones_like(inner)
         if evaluator == "vertex":
-            inner = STEPS[np.searchsorted(STEPS, inner)]
+            inner, tiles = steps, np.ones_like(steps)
         else:
+            inner = grid_levels(steps, edges)
             inner, edges, tiles = in_tiles(inner, edges, numbers, HARDWARE_LEVEL)
         plans, before = [], 0
         for k, own in enumerate(asked):
@@ -172,7 +178,7 @@ class Adaptive:
         self._set_nets(program, layer)
         set_common(program)
         if evaluator == "vertex":
-            self._draw_grids(program, plan)
+            self._stitches.draw(program, plan)
         else:
             self._tessellate(program, plan)
 
@@ -187,49 +193,6 @@ class Adaptive:
                 texture_degree=orders(layer.texture.net),
                 texture_stride=0 if patch_count(layer.texture.net) == 1 else 1,
             )
-
-    # The vertex evaluator: patches of one level together -------------------------------------
-
-    def _draw_grids(self, program: Program, plan: Plan) -> None:
-        levels, edges = plan.inner, plan.edges
-        snaps = bool((edges != levels[:, [1, 0, 1, 0]]).any())
-        order = np.lexsort(levels.T)
-        _, starts = np.unique(levels[order], axis=0, return_index=True)
-        for group in np.split(order, np.sort(starts)[1:]):
-            level = (int(levels[group[0], 0]), int(levels[group[0], 1]))
-            vertices, indices = self._grid(level, snaps)
-            rows = np.column_stack([plan.patches[group], edges[group]]).astype(np.int32)
-            instances = self._ctx.buffer(rows.tobytes())
-            program.set(level=level)
-            array = self._ctx.vertex_array(
-                program.ready(),
-                [(vertices, "2i", "step_index"), (instances, "1i 4i /i", "patch_index", "outer")],
-                indices,
-            )
-            array.render(instances=len(group))
-            array.release()
-            instances.release()
-
-    def _grid(self, level: tuple[int, int], snaps: bool) -> tuple[moderngl.Buffer, moderngl.Buffer]:
-        """Steps and triangles, as mesh.vert has them; if vertices snap, as snap.glsl does."""
-        key = (*level, snaps)
-        if key not in self._grids:
-            corner = np.arange((level[0] + 1) * (level[1] + 1), dtype=np.int32)
-            steps = np.stack(np.divmod(corner, level[1] + 1), -1).astype(np.int32)
-            grid = corner.reshape(level[0] + 1, level[1] + 1)
-            a, b, c, d = grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]
-            i, j = np.indices(a.shape)
-            rising = ((2 * i + 1 < level[0]) == (2 * j + 1 < level[1])) | (not snaps)
-            cells = np.where(
-                rising[..., None],
-                np.stack([a, b, c, a, c, d], -1),
-                np.stack([a, b, d, b, c, d], -1),
-            )
-            self._grids[key] = (
-                self._ctx.buffer(steps.tobytes()),
-                self._ctx.buffer(cells.tobytes()),
-            )
-        return self._grids[key]
 
     # Tessellation ---------------------------------------------------------------------------
 

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
-import numpy as np
 from numpy.typing import NDArray
 
 from .changes import changed_runs
 
 T = TypeVar("T")
-Array = NDArray[np.float64]
+Array = NDArray[Any]
 Renew = Callable[[T, list[range]], None]
 
 
