@@ -7,34 +7,30 @@
 //     |  | 64 | 64 |12|     level 140
 //     +-> u ----+---+--+
 //
-// With ADAPTIVE each patch brings its own levels, those of its edges, and its own tile.
+// With ADAPTIVE each patch brings its own levels, and those of its edges.
 
 layout(vertices = 1) out;
 
 in int patch_of_vertex[];
+in ivec4 tile_of_vertex[];
 out int patch_of_surface[];
+out ivec4 tile_of_surface[];
 
 #ifdef ADAPTIVE
 in ivec2 inner_of_vertex[];
 in ivec4 outer_of_vertex[];   // of the edges u = 0, v = 0, u = 1, v = 1
-in ivec4 tile_of_vertex[];
 out ivec2 inner_of_surface[];
 out ivec4 outer_of_surface[];
-out ivec4 tile_of_surface[];
-#else
-uniform ivec4 tile;   // first step in u, in v; steps in u, in v
 #endif
 
 void main() {
     patch_of_surface[gl_InvocationID] = patch_of_vertex[gl_InvocationID];
+    tile_of_surface[gl_InvocationID] = tile_of_vertex[gl_InvocationID];
 #ifdef ADAPTIVE
     inner_of_surface[gl_InvocationID] = inner_of_vertex[gl_InvocationID];
     outer_of_surface[gl_InvocationID] = outer_of_vertex[gl_InvocationID];
-    tile_of_surface[gl_InvocationID] = tile_of_vertex[gl_InvocationID];
-    vec2 steps = vec2(tile_of_vertex[0].zw);
-#else
-    vec2 steps = vec2(tile.zw);
 #endif
+    vec2 steps = vec2(tile_of_vertex[0].zw);
     gl_TessLevelInner[0] = steps.x;
     gl_TessLevelInner[1] = steps.y;
     gl_TessLevelOuter[0] = steps.y;   // u = 0

@@ -14,15 +14,14 @@ layout(quads, equal_spacing, ccw
 #include "lib/grid.glsl"
 
 in int patch_of_surface[];
+in ivec4 tile_of_surface[];
 
 #ifdef ADAPTIVE
 #include "lib/snap.glsl"
 in ivec2 inner_of_surface[];
 in ivec4 outer_of_surface[];
-in ivec4 tile_of_surface[];
 #else
 uniform int level;
-uniform ivec4 tile;
 #endif
 
 #ifdef PROBE
@@ -38,8 +37,8 @@ flat out vec3 probed_normal;
 
 void main() {
     int patch_index = patch_of_surface[0];
-#ifdef ADAPTIVE
     ivec4 tile = tile_of_surface[0];
+#ifdef ADAPTIVE
     ivec2 steps = inner_of_surface[0];
     ivec2 step_index = ivec2(gl_TessCoord.xy * vec2(tile.zw) + 0.5);
     snap(step_index, steps, tile, outer_of_surface[0]);

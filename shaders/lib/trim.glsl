@@ -14,43 +14,47 @@
 // graphs in place of their bisection.)
 //
 // Software rasterisers execute an `if` for every fragment, and a loop at least once: so there is
-// one short loop, and it does everything for a piece, whether near or not.
+// one short loop, and it does everything for a piece, whether near or not. And textureLod at the
+// middle of a texel takes them two thirds of the time of texelFetch, which looks for the borders.
 //
 //   BY_SAMPLE      each of a pixel's samples is decided; where OpenGL cannot, its middle for all
 //   TRIM_DIVIDED   there are cells that are grids again
 
-uniform isampler2D trim_nodes;   // first piece + 2^24 winding number; how many pieces are steep
-                                 // + 2^10 closing + 2^20 flat, or -1 where there are too many
+uniform isampler2D trim_nodes;   // of the first grid's cells: first piece + 2^24 winding number; how
+                                 // many pieces are steep + 2^10 closing + 2^20 flat, or -1 where
+                                 // there are too many; where the cells stand that divide it, or < 0
 uniform sampler2D trim_pieces;   // two texels a piece: (x0, x1, y0, y1 - y0), b0 .. b3; then of
                                  // grids that get coarser the shares of four cells, corner by corner
+uniform vec2 trim_step;          // the size of a texel of those
 uniform int trim_shares;         // where they begin; the finest has twice as many cells a side
 uniform int trim_coarsest;       // how often it is halved
-uniform int trim_side;           // cells along a side of the first grid of pieces
+uniform float trim_side;         // cells along a side of the first grid of pieces
 #ifdef TRIM_DIVIDED
-uniform isampler2D trim_divisions;   // of each node the first of the cells that divide it, or 0
+uniform isampler2D trim_below;   // nodes of the cells that divide others
 #endif
 
-ivec2 trim_place(int index) {
-    return ivec2(index & (NET_WIDTH - 1), index / NET_WIDTH);
+// Along a table of rows, NET_WIDTH in each: the place in it, in texels.
+vec2 trim_place(int index) {
+    uint place = uint(index);
+    return vec2(place % uint(NET_WIDTH), place / uint(NET_WIDTH)) + 0.5;
 }
 
 // The node of the smallest cell around a point whose margin is as wide as `reach`, and its size.
 ivec2 find_leaf(vec2 uv, float reach, out float size) {
-    vec2 place = clamp(uv, 0.0, 1.0) * float(trim_side);
-    ivec2 cell = min(ivec2(place), trim_side - 1);
-    int number = cell.y * trim_side + cell.x;
-    size = 1.0 / float(trim_side);
+    vec2 place = clamp(uv, 0.0, 1.0) * trim_side;
+    vec2 cell = min(floor(place), trim_side - 1.0);
+    size = 1.0 / trim_side;
+    ivec4 node = textureLod(trim_nodes, (cell + 0.5) * size, 0.0);
 #ifdef TRIM_DIVIDED
-    int first = texelFetch(trim_divisions, trim_place(number), 0).x;
-    while (first > 0 && reach * float(TRIM_DIVISION) <= TRIM_MARGIN * size) {
-        place = (place - vec2(cell)) * float(TRIM_DIVISION);
-        cell = min(ivec2(place), TRIM_DIVISION - 1);
-        number = first + cell.y * TRIM_DIVISION + cell.x;
-        first = texelFetch(trim_divisions, trim_place(number), 0).x;
+    while (node.z >= 0 && reach * float(TRIM_DIVISION) <= TRIM_MARGIN * size) {
+        place = (place - cell) * float(TRIM_DIVISION);
+        cell = min(floor(place), float(TRIM_DIVISION - 1));
+        int number = node.z + int(cell.y) * TRIM_DIVISION + int(cell.x);
+        node = texelFetch(trim_below, ivec2(trim_place(number)), 0);
         size /= float(TRIM_DIVISION);
     }
 #endif
-    return texelFetch(trim_nodes, trim_place(number), 0).xy;
+    return node.xy;
 }
 
 // Where the kinds of a node's pieces end: steep, closing, and all.
@@ -63,8 +67,9 @@ ivec3 kinds_of(ivec2 node) {
 struct Piece { vec4 ends, bump; };
 
 Piece trim_piece(int texel) {
-    return Piece(texelFetch(trim_pieces, trim_place(texel), 0),
-                 texelFetch(trim_pieces, trim_place(texel + 1), 0));
+    vec2 place = trim_place(texel) * trim_step;   // a row has an even number of texels
+    return Piece(textureLod(trim_pieces, place, 0.0),
+                 textureLod(trim_pieces, vec2(place.x + trim_step.x, place.y), 0.0));
 }
 
 // f, at tau.
@@ -138,15 +143,18 @@ float swept_area(vec2 start, vec2 end) {
 }
 
 // Where the shares stand of the four cells, from half to once as wide as a pixel, between whose
-// middles a point lies; `between`: how far from the first to the last.
-int share_texel(vec2 uv, float wide, out vec2 between) {
-    int finest = 2 * trim_side, level = int(log2(max(wide * float(finest), 1.0)));
+// middles a point lies; `between`: how far from the first to the last. `area` is the pixel's.
+int share_texel(vec2 uv, float area, out vec2 between) {
+    int finest = 2 * int(trim_side);
+    // The floor of the binary logarithm, of the square halved, stands in the number itself.
+    int level = max((floatBitsToInt(area * (4.0 * trim_side * trim_side)) >> 23) - 127, 0) >> 1;
     int side = max(finest >> min(level, 30), 1);
     vec2 place = clamp(uv, 0.0, 1.0) * float(side) + 0.5;
     ivec2 corner = min(ivec2(place), side);
     between = place - vec2(corner);
     // Before this grid come those of (s + 1)^2 corners, s from the finest to twice its own side.
-    int before = 4 * (finest * finest - side * side) / 3 + 4 * (finest - side);
+    // The squares divided by 3, exactly, by a product modulo 2^32: division is slow.
+    int before = 4 * ((finest * finest - side * side) * -1431655765) + 4 * (finest - side);
     return trim_shares + before + min(level, trim_coarsest) + corner.y * (side + 1) + corner.x;
 }
 
@@ -160,7 +168,7 @@ float pixel_coverage(vec2 uv, vec2 across, vec2 up) {
     ivec3 kinds = kinds_of(node);
     float determinant = across.x * up.y - across.y * up.x;
     bool coarse = widest > TRIM_MARGIN * size || determinant == 0.0 || node.y < 0;
-    int shares = share_texel(uv, sqrt(max(dot(across, across), dot(up, up))), between);
+    int shares = share_texel(uv, max(dot(across, across), dot(up, up)), between);
     mat2 to_pixels = mat2(up.y, -across.y, -up.x, across.x) / determinant;
     int winding = node.x >> 24, i = node.x & 0xFFFFFF, end = coarse ? 0 : kinds.z;
     float swept = 0.0;
@@ -204,7 +212,7 @@ int winding_set(vec2 uv, vec2 reach, vec4 u, vec4 v) {
     ivec3 kinds = kinds_of(node);
     bool coarse = widest > TRIM_MARGIN * size || node.y < 0;
     vec2 between;
-    int shares = share_texel(uv, 2.0 * widest, between), i = node.x & 0xFFFFFF;
+    int shares = share_texel(uv, 4.0 * widest * widest, between), i = node.x & 0xFFFFFF;
     int end = coarse ? 0 : kinds.z;
     ivec4 winding = ivec4(node.x >> 24);
     vec4 told;

@@ -12,7 +12,7 @@ from reparam.geometry.net import Array
 from reparam.geometry.normal import surface_normal
 from reparam.geometry.planar_maps import R
 from reparam.gpu.readback import read_points
-from reparam.gpu.surfaces import tiles
+from reparam.gpu.tiles import tiles
 from reparam.snapshot import Studio
 
 EVALUATORS = ["vertex", "tessellation"]

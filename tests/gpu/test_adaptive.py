@@ -21,9 +21,10 @@ from reparam.geometry.planar_maps import R
 from reparam.geometry.surface_spline import surface_spline
 from reparam.geometry.torus import two_halves
 from reparam.gpu.accuracy import Drawn, deviations
-from reparam.gpu.adaptive import Plan, Tolerance, draws, tiled, uniform_plan
+from reparam.gpu.adaptive import Plan, Tolerance, tiled, uniform_plan
 from reparam.gpu.painter import Painter
 from reparam.gpu.targets import Target
+from reparam.gpu.tiles import draws
 from reparam.scenes.display import Display
 from reparam.scenes.layers import Figure, Patches, Space
 from reparam.snapshot import Studio

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import moderngl
@@ -21,12 +21,9 @@ from .kept import Kept
 from .nets import NET_UNIT
 from .programs import Program, Programs, degree_defines
 from .stitches import Stitches
+from .tiles import HARDWARE_LEVEL, draws
 
-HARDWARE_LEVEL = 64  # what every OpenGL 4 promises
 FINEST_GRID = 1024  # of the vertex evaluator
-
-# llvmpipe's tessellator is quadratic in the patches of a draw, and counts vertices by 16 bits.
-SOFTWARE_PATCHES, SOFTWARE_VERTICES = 64, 1 << 16
 
 Ints = NDArray[np.int64]
 Body = tuple[Patches, ...]
@@ -221,18 +218,3 @@ def tiled(plan: Plan) -> NDArray[np.int32]:
     start, end = at * levels // across, (at + 1) * levels // across
     columns = [plan.patches[row], levels, plan.edges[row], start, end - start]
     return np.column_stack(columns).astype(np.int32)
-
-
-def draws(vertices: NDArray[np.int32], software: bool) -> Iterator[tuple[int, int]]:
-    """The first patch and the number of patches of each draw, for patches that the tessellator
-    makes so many vertices of."""
-    if not software:
-        yield 0, len(vertices)
-        return
-    ends, first = np.cumsum(vertices, dtype=np.int64), 0
-    while first < len(vertices):
-        before = ends[first] - vertices[first]
-        fit = int(np.searchsorted(ends, before + SOFTWARE_VERTICES, "right")) - first
-        count = min(max(fit, 1), SOFTWARE_PATCHES)
-        yield first, min(count, len(vertices) - first)
-        first += count

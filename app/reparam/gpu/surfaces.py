@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import moderngl
@@ -12,7 +11,7 @@ from numpy.typing import NDArray
 from ..geometry.camera import Camera
 from ..scenes.layers import Color, Patches, Picture, Ramp, Texture
 from ..scenes.shading import DISTORTION, DRAWN, PLAIN_SCALE, Scale, Shading, attached_by
-from .adaptive import HARDWARE_LEVEL, Adaptive, Tolerance, draws
+from .adaptive import Adaptive, Tolerance
 from .batches import Batches
 from .context import Capabilities
 from .evaluation import Evaluation, orders, patch_count
@@ -21,6 +20,7 @@ from .meshes import triangle_indices
 from .nets import NET_UNIT
 from .pictures import Pictures
 from .programs import Program, Programs, degree_defines
+from .tiles import Tiles, draws, tile_rows, tiles
 from .trims import Edges, Part, Trims, decided, trim_defines
 
 Array = NDArray[np.float64]
@@ -30,11 +30,6 @@ WHITE = (1.0, 1.0, 1.0)
 RAMP = Picture("ramp", wrap="mirror")
 
 Fine = int | Tolerance  # steps in u and in v of every patch, or what a drawn point may be off
-
-TRIMMED_TILE = 8  # steps: of a trimmed surface only tiles near its curves look them up
-
-Tile = tuple[int, int, int, int]
-Tiles = Sequence[tuple[Tile, NDArray[np.int32]]]
 
 
 @dataclass(frozen=True)
@@ -264,7 +259,7 @@ class Surfaces:
         if "TEXTURED" in defines:
             assert layer.texture is not None
             nets["TEXTURE_"] = orders(layer.texture.net)
-        for trimmed, chosen in self._tiles(layer, level):
+        for trimmed, rows in self._tiles(layer, level):
             program = self._programs.get(
                 "patch.tess.vert",
                 "patch.tesc",
@@ -274,24 +269,14 @@ class Surfaces:
             )
             self._set_nets(program, layer, level)
             self.set_common(program, layer, camera, look)
-            self._draw_tiles(program, chosen)
+            self._draw_tiles(program, rows)
 
-    def _tiles(self, layer: Patches, level: int) -> Iterator[tuple[bool, Tiles]]:
-        """The tiles to draw, with the patches of each; of a trimmed surface in small ones, first
-        those that no curve comes near, then those whose fragments are to be decided."""
-        everything = np.arange(patch_count(layer.net), dtype=np.int32)
+    def _tiles(self, layer: Patches, level: int) -> list[tuple[bool, Tiles]]:
+        """The tiles to draw; of a trimmed surface small ones, first those that no curve comes
+        near, then those whose fragments are to be decided."""
         if layer.trim is None:
-            yield False, [(tile, everything) for tile in tiles(level)]
-            return
-        from ..geometry.trimming.lookup import CUT, INSIDE
-
-        pieces = tiles(level, TRIMMED_TILE)
-        lines = np.append(np.arange(0, level, TRIMMED_TILE), level) / level
-        kept = self.trims.cells(layer, lines).reshape(-1, len(pieces))
-        kept = np.broadcast_to(kept, (len(everything), len(pieces)))
-        for which in (INSIDE, CUT):
-            chosen = [(tile, everything[kept[:, i] == which]) for i, tile in enumerate(pieces)]
-            yield which == CUT, [(tile, patches) for tile, patches in chosen if len(patches)]
+            return [(False, tile_rows(patch_count(layer.net), tiles(level)))]
+        return self.trims.tiles(layer, level)
 
     def _set_nets(self, program: Program, layer: Patches, level: int) -> None:
         self._evaluation.texture(layer.net).use(0)
@@ -307,20 +292,17 @@ class Surfaces:
 
     def tessellate(self, program: Program, count: int, level: int) -> None:
         """Draw all patches with a tessellation program, tile by tile and chunk by chunk."""
-        everything = np.arange(count, dtype=np.int32)
-        self._draw_tiles(program, [(tile, everything) for tile in tiles(level)])
+        self._draw_tiles(program, tile_rows(count, tiles(level)))
 
-    def _draw_tiles(self, program: Program, chosen: Tiles) -> None:
+    def _draw_tiles(self, program: Program, rows: Tiles) -> None:
         self._ctx.patch_vertices = 1
-        for tile, patches in chosen:
-            numbers = self._ctx.buffer(patches.tobytes())
-            program.set(tile=tile)
-            vertices = self._ctx.vertex_array(program.ready(), [(numbers, "1i", "patch_index")])
-            each = np.full(len(patches), (tile[2] + 1) * (tile[3] + 1), np.int32)
-            for first, count in draws(each, self._software):
-                vertices.render(moderngl.PATCHES, vertices=count, first=first)
-            vertices.release()
-            numbers.release()
+        buffer = self._ctx.buffer(rows.tobytes())
+        content = [(buffer, "1i 4i", "patch_index", "tile")]
+        vertices = self._ctx.vertex_array(program.ready(), content)
+        for first, count in draws((rows[:, 3:] + 1).prod(-1), self._software):
+            vertices.render(moderngl.PATCHES, vertices=count, first=first)
+        vertices.release()
+        buffer.release()
 
 
 def _picture_defines(texture: Texture) -> dict[str, int | str]:
@@ -331,10 +313,3 @@ def _picture_defines(texture: Texture) -> dict[str, int | str]:
         return {"PICTURE": 1, "RAMP": 1, "FIELD(x, y)": formula, where: 1}
     mirrored = {"MIRRORED": 1} if picture.wrap == "mirror" else {}
     return {"PICTURE": 1, "TEXTURED": 1, **mirrored}
-
-
-def tiles(level: int, largest: int = HARDWARE_LEVEL) -> list[Tile]:
-    """(first step in u, in v, steps in u, in v) of the tiles that a level is drawn in."""
-    starts = range(0, level, largest)
-    steps = {start: min(largest, level - start) for start in starts}
-    return [(u, v, steps[u], steps[v]) for u in starts for v in starts]

@@ -18,6 +18,7 @@ from .kept import Kept
 from .meshes import triangle_indices
 from .nets import NET_WIDTH, net_texture
 from .programs import Program
+from .tiles import Tiles, tile_rows, tiles
 
 if TYPE_CHECKING:
     from ..geometry.trimming import TrimRegion
@@ -28,6 +29,7 @@ Array = NDArray[np.float64]
 TRIM_DEFINES = ("TRIMMED", "ANTIALIASED", "BY_SAMPLE", "TRIM_DIVIDED")
 
 Edges = Literal["pixels", "samples", "shares"]  # what decides: centres, samples, or how much stays
+TRIMMED_TILE = 8  # steps: of a trimmed surface only tiles near its curves look them up
 UNIT_SQUARE = np.array([[0.0, 1.0, 0.0, 1.0]])
 
 
@@ -36,12 +38,12 @@ class TrimTextures:
     """A packed region on the GPU."""
 
     nodes: moderngl.Texture
-    divisions: moderngl.Texture
+    below: moderngl.Texture
     pieces: moderngl.Texture
 
     def release(self) -> None:
         """Give the memory back."""
-        for texture in (self.nodes, self.divisions, self.pieces):
+        for texture in (self.nodes, self.below, self.pieces):
             texture.release()
 
 
@@ -67,6 +69,7 @@ class Trims:
         self._regions: Kept[TrimTextures] = Kept(TrimTextures.release)
         self._parts: Kept[list[Part]] = Kept(_release)
         self._patches: Kept[NDArray[np.int8]] = Kept(lambda _: None)
+        self._tiles: Kept[list[tuple[bool, Tiles]]] = Kept(lambda _: None)
         self._domains: Kept[moderngl.Texture] = Kept(lambda texture: texture.release())
 
     def bind(self, program: Program, layer: Patches, unit: int) -> None:
@@ -90,16 +93,17 @@ class Trims:
         """A region, in three units from `unit` on. Raises GraphicsError where it is too large."""
         packed = region.pack()
         textures = self._regions.get(packed.shares[0], None, lambda: self._upload(packed))
-        bound = (textures.nodes, textures.divisions, textures.pieces)
+        bound = (textures.nodes, textures.below, textures.pieces)
         for number, texture in enumerate(bound, start=unit):
             texture.use(number)
-        program.set(trim_nodes=unit, trim_pieces=unit + 2, trim_side=packed.side)
+        step = 1.0 / textures.pieces.width, 1.0 / textures.pieces.height
+        program.set(trim_nodes=unit, trim_pieces=unit + 2, trim_step=step, trim_side=packed.side)
         if program.defines & {"ANTIALIASED", "BY_SAMPLE"}:
             program.set(trim_shares=2 * len(packed.pieces), trim_coarsest=len(packed.shares) - 1)
         if "BY_SAMPLE" in program.defines:
             program.set(samples=self._ctx.fbo.samples)
         if "TRIM_DIVIDED" in program.defines:
-            program.set(trim_divisions=unit + 1)
+            program.set(trim_below=unit + 1)
 
     def cells(self, layer: Patches, lines: Array) -> NDArray[np.int8]:
         """What stays of the cells between lines 0 .. 1 of each patch: (patches, k, k), or (1, k,
@@ -125,16 +129,34 @@ class Trims:
         whole = np.array([0.0, 1.0])
         return self._patches.get(domains, region, lambda: self.cells(layer, whole).reshape(-1))
 
+    def tiles(self, layer: Patches, level: int) -> list[tuple[bool, Tiles]]:
+        """Tiles for the tessellator: first those that no curve comes near, then those whose
+        fragments are to be decided. Kept while they are drawn."""
+        region = layer.trim
+        assert region is not None
+        from ..geometry.trimming.lookup import CUT, WITHIN
+
+        def make() -> list[tuple[bool, Tiles]]:
+            count, small = patch_count(layer.net), tiles(level, TRIMMED_TILE)
+            lines = np.append(np.arange(0, level, TRIMMED_TILE), level) / level
+            kept = self.cells(layer, lines).reshape(-1, len(small))
+            kept = np.broadcast_to(kept, (count, len(small)))
+            parts = [(which == CUT, tile_rows(count, small, kept == which)) for which in WITHIN]
+            return [(cut, rows) for cut, rows in parts if len(rows)]
+
+        key = (region.domain, _bytes(layer.domains), level, patch_count(layer.net))
+        return self._tiles.get(region.pack().shares[0], key, make)
+
     def planned(self, layer: Patches, plan: Plan) -> Iterator[tuple[bool, Plan]]:
         """The patches to draw; of a trimmed surface first those that no curve comes near, then
         those whose fragments are to be decided."""
         if layer.trim is None:
             yield False, plan
             return
-        from ..geometry.trimming.lookup import CUT, INSIDE
+        from ..geometry.trimming.lookup import CUT, WITHIN
 
         kept = np.broadcast_to(self.patches(layer), patch_count(layer.net))[plan.patches]
-        for which in (INSIDE, CUT):
+        for which in WITHIN:
             here = np.flatnonzero(kept == which)
             yield which == CUT, plan.take(here)
 
@@ -143,8 +165,7 @@ class Trims:
         outside are left out. Kept while they are drawn."""
         region = layer.trim
         assert region is not None
-        domains = b"" if layer.domains is None else layer.domains.tobytes()
-        key = (region.domain, domains, level, patches.start, patches.stop)
+        key = (region.domain, _bytes(layer.domains), level, patches.start, patches.stop)
         return self._parts.get(
             region.pack().shares[0], key, lambda: list(self._split(layer, level, patches))
         )
@@ -154,9 +175,9 @@ class Trims:
         own = kept if layer.domains is None else kept[patches.start : patches.stop]
         own = np.broadcast_to(own, (len(patches), level, level))
         indices = triangle_indices(level, len(patches))
-        from ..geometry.trimming.lookup import CUT, INSIDE
+        from ..geometry.trimming.lookup import CUT, WITHIN
 
-        for which in (INSIDE, CUT):
+        for which in WITHIN:
             chosen = indices[own == which]
             if len(chosen):
                 yield Part(which == CUT, self._ctx.buffer(chosen.tobytes()), chosen.size)
@@ -164,27 +185,35 @@ class Trims:
     def _upload(self, packed: PackedTrim) -> TrimTextures:
         from ..geometry.trimming.packing import corner_shares
 
+        first = packed.side**2
+        nodes = np.zeros((len(packed.nodes), 4 if packed.divided else 2), np.int32)
+        nodes[:, :2] = packed.nodes
+        if packed.divided:
+            nodes[:, 2] = packed.divisions - first
         shares = [corner_shares(level).reshape(-1, 4) for level in packed.shares]
         pieces = np.concatenate([packed.pieces.reshape(-1, 4), *shares, np.zeros((1, 4))])
         return TrimTextures(
-            self._table(packed.nodes, "i4"),
-            self._table(packed.divisions[:, None], "i4"),
+            self._table(nodes[:first], "i4", packed.side),
+            self._table(nodes[first:], "i4"),
             self._table(pieces.astype(np.float32), "f4"),
         )
 
-    def _table(self, rows: NDArray[np.int32] | NDArray[np.float32], dtype: str) -> moderngl.Texture:
-        """A texel a row, wrapped at NET_WIDTH."""
-        height = max(-(-len(rows) // NET_WIDTH), 1)
+    def _table(
+        self,
+        rows: NDArray[np.int32] | NDArray[np.float32],
+        dtype: str,
+        width: int = NET_WIDTH,
+    ) -> moderngl.Texture:
+        """A texel a row, wrapped at a width."""
+        height = max(-(-len(rows) // width), 1)
         if height > self._ctx.info["GL_MAX_TEXTURE_SIZE"]:
             raise GraphicsError(
                 f"expected a trim region of up to {self._ctx.info['GL_MAX_TEXTURE_SIZE']} rows "
                 f"of cells and of pieces, found {height}"
             )
-        texels = np.zeros((height * NET_WIDTH, rows.shape[1]), rows.dtype)
+        texels = np.zeros((height * width, rows.shape[1]), rows.dtype)
         texels[: len(rows)] = rows
-        texture = self._ctx.texture(
-            (NET_WIDTH, height), rows.shape[1], texels.tobytes(), dtype=dtype
-        )
+        texture = self._ctx.texture((width, height), rows.shape[1], texels.tobytes(), dtype=dtype)
         texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
         return texture
 
@@ -193,6 +222,7 @@ class Trims:
         self._regions.sweep()
         self._domains.sweep()
         self._parts.sweep()
+        self._tiles.sweep()
         self._patches.sweep()
 
 
@@ -210,6 +240,10 @@ def trim_defines(region: TrimRegion, edges: Edges) -> dict[str, int]:
 def decided(defines: dict[str, int | str], trimmed: bool) -> dict[str, int | str]:
     """The defines for what is trimmed, or for a part that no curve comes near."""
     return {k: v for k, v in defines.items() if trimmed or k not in TRIM_DEFINES}
+
+
+def _bytes(domains: Array | None) -> bytes:
+    return b"" if domains is None else domains.tobytes()
 
 
 def domains_in_square(region: TrimRegion, domains: Array | None) -> Array:

@@ -20,6 +20,7 @@ from .pieces import Array, Indices
 from .winding import expand
 
 OUTSIDE, INSIDE, CUT = 0, 1, 2
+WITHIN = INSIDE, CUT  # of which something stays
 
 
 def find_leaf(
