@@ -7,20 +7,16 @@ from itertools import product
 import numpy as np
 import pytest
 
+from reparam.geometry.bends import bends
 from reparam.geometry.camera import View, frame
 from reparam.geometry.edge_levels import snapped
 from reparam.geometry.evaluate import evaluate, sample_surface
 from reparam.geometry.levels import (
     FINEST,
-    bends,
-    edge_bend,
     fewest_steps,
     isosceles,
-    least_weight,
-    mixed_derivative,
     out_of_view,
     pixels_a_unit,
-    second_derivative,
     share_used,
 )
 from reparam.geometry.net import Array, control_net, raise_degree
@@ -29,7 +25,6 @@ from reparam.geometry.planar_maps import R
 SCALE = (256.0, 200.0)
 TOLERANCE = 0.5
 INSIDE = 4  # points along each side of a triangle that are looked at, less one
-RULED = control_net([[(-1, 1), (0.2, 1)], [(-0.3, 0), (0.4, 0.1)], [(-1, -1), (1, -1)]])
 
 
 def random_net(random: np.random.Generator, rational: bool) -> Array:
@@ -97,7 +92,7 @@ def test_no_triangle_is_off_by_more(rational: bool, perspective: bool) -> None:
             assert areas(cells).sum() == pytest.approx(1.0)
             ratios.append(worst(net, cells[areas(cells) > 1e-12]) / 4.0)
     assert max(ratios) <= 1.0
-    assert max(ratios) > (0.25 if rational else 0.6)  # and it is not idle either
+    assert max(ratios) > 0.4  # and it is not idle either
 
 
 def test_a_parabola_gets_what_it_needs() -> None:
@@ -135,68 +130,6 @@ def test_what_is_smaller_than_the_tolerance_needs_one_step() -> None:
     assert fewest_steps(bends(small, SCALE), 0.05).prod() > 1
 
 
-@pytest.mark.parametrize("net", [R, RULED, random_net(np.random.default_rng(3), True)])
-def test_derivatives_are_those_of_the_surface(net: Array) -> None:
-    t = np.linspace(0.05, 0.95, 5)
-    u, v = np.meshgrid(t, t, indexing="ij")
-    h = 1e-3
-
-    def at(du: float, dv: float) -> Array:
-        return evaluate(net, u + du * h, v + dv * h)
-
-    expected = {
-        -3: at(1, 0) - 2.0 * at(0, 0) + at(-1, 0),
-        -2: at(0, 1) - 2.0 * at(0, 0) + at(0, -1),
-        0: (at(1, 1) - at(1, -1) - at(-1, 1) + at(-1, -1)) / 4.0,
-    }
-    for axis, difference in expected.items():
-        found = second_derivative(net, axis) if axis else mixed_derivative(net)
-        np.testing.assert_allclose(evaluate(found, u, v), difference / h**2, atol=2e-3)
-
-
-@pytest.mark.parametrize("net", [R, RULED, random_net(np.random.default_rng(4), True)])
-def test_edges_of_any_slope_are_bounded(net: Array) -> None:
-    """By control points here, of which the surface has no more."""
-    centred = net * [256.0, 200.0, 1.0, 1.0]
-    s = bends(net, SCALE)
-    middle = (centred[..., :2] / centred[..., 3:]).reshape(-1, 2)
-    centred[..., :2] -= (middle.min(0) + middle.max(0)) / 2.0 * centred[..., 3:]
-    a, b, c = (
-        second_derivative(centred, -3),
-        mixed_derivative(centred),
-        second_derivative(centred, -2),
-    )
-    reach = np.ptp(middle, axis=0) / 2.0
-    assert np.hypot(*reach) == pytest.approx(float(s.extent) / 2.0)
-    for t in np.geomspace(1e-3, 1e3, 40):
-        for x, y in (
-            (1.0, t),
-            (1.0, -t),
-            (1.0, 0.3 * t),
-            (0.4, t),
-            (-0.7, t),
-            (1.0, 0.0),
-            (0.0, t),
-        ):
-            bent = np.abs(x * x * a + 2.0 * x * y * b + y * y * c)
-            length = np.hypot(*np.moveaxis(bent[..., :2] + reach * bent[..., 3:], -1, 0))
-            assert length.max() <= float(edge_bend(s, np.array(t))) * (1.0 + 1e-9)
-
-
-def test_the_least_weight_is_near_the_truth() -> None:
-    arc = np.array([1.0, 0.5**0.5, 1.0])
-    weights = arc[:, None] * arc
-    least = evaluate(np.repeat(weights[..., None], 4, -1), 0.5, 0.5)[3]
-    assert 0.85 * least < float(least_weight(weights)) < least
-    random = np.random.default_rng(5)
-    for _ in range(20):
-        weights = random.uniform(0.1, 2.0, random.integers(1, 6, 2))
-        t = np.linspace(0.0, 1.0, 12)
-        w = evaluate(np.repeat(weights[..., None], 4, -1), *np.meshgrid(t, t))[..., 3]
-        assert weights.min() <= float(least_weight(weights)) <= w.min() + 1e-12
-    assert float(least_weight(-weights)) < 0.0
-
-
 def test_isosceles() -> None:
     l1, l2 = np.meshgrid(np.linspace(0, 1, 201), np.linspace(0, 1, 201))
     l3 = 1.0 - l1 - l2
@@ -205,22 +138,37 @@ def test_isosceles() -> None:
         assert isosceles(np.array(base), np.array(side)) == pytest.approx(most, rel=1e-3)
 
 
-def test_steps_keep_the_tolerance_and_are_few() -> None:
+@pytest.mark.parametrize("shape", [(3, 4), (2, 3)])
+@pytest.mark.parametrize("rational", [False, True])
+def test_steps_keep_the_tolerance_and_are_few(shape: tuple[int, int], rational: bool) -> None:
+    """Of all up to 60 each way; where one is 1, others would be few as well."""
     random = np.random.default_rng(2)
-    nets = np.stack([random.uniform(-1, 1, (3, 4, 4)) * 10.0 ** random.uniform(-3, 0, (3, 4, 1))
-                     for _ in range(60)])  # fmt: skip
-    nets[..., 3] = 1.0
+    nets = np.ones((60, *shape, 4))
+    sizes = 10.0 ** random.uniform(-3, 0, (60, 1, shape[1], 1))
+    nets[..., :3] = random.uniform(-1, 1, (60, *shape, 3)) * sizes
+    if rational:
+        nets *= random.uniform(0.5, 2.0, (60, *shape, 1))
     s = bends(nets, SCALE)
     steps = fewest_steps(s, TOLERANCE)
     assert (share_used(s, steps, TOLERANCE) <= 1.0).all()
-    best = np.full(60, np.inf)
-    for trial in product(range(1, 60), repeat=2):
-        fine = share_used(s, np.broadcast_to(np.array(trial), (60, 2)), TOLERANCE) <= 1.0
-        best = np.where(fine, np.minimum(best, np.prod(trial)), best)
-    assert np.isfinite(best).mean() > 0.8
+    trials = np.stack(np.meshgrid(*2 * [np.arange(1, 61)], indexing="ij"), -1)[:, :, None]
+    fine = share_used(s, trials, TOLERANCE) <= 1.0
+    best = np.where(fine, trials.prod(-1), np.inf).min((0, 1))
+    assert np.isfinite(best).mean() > 0.6
     ratio = (steps.prod(-1) / best)[np.isfinite(best)]
     assert np.median(ratio) < 1.05
-    assert ratio.max() < 1.4
+    assert ratio.max() < 1.5
+
+
+def test_a_map_bent_another_way_has_a_say_in_the_slope() -> None:
+    """The patch bends along v, a little, its map along u."""
+    v, u = np.meshgrid([0.0, 0.5, 1.0], [0.0, 0.5, 1.0])
+    patch = np.stack([u, v + 1e-3 * (v == 0.5), 0.0 * u, np.ones((3, 3))], -1)
+    sought = np.stack([u + 0.2 * (u == 0.5), v, 0.0 * u, np.ones((3, 3))], -1)
+    unit = pixels_a_unit(patch, sought, SCALE)
+    steps = fewest_steps(bends(patch, SCALE), TOLERANCE, bends(sought, (1.0, 1.0)), unit)
+    assert steps[1] == 1
+    assert 4 < steps[0] < 16
 
 
 def test_without_positive_weights_the_finest() -> None:

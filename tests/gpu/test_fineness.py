@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 from truth import random_nets
 
+from reparam.geometry.bends import bends
 from reparam.geometry.camera import Camera, View, frame
 from reparam.geometry.evaluate import sample_surface
 from reparam.geometry.facing import faces_away
-from reparam.geometry.levels import bends, box_corners, fewest_steps, out_of_view, pixels_a_unit
+from reparam.geometry.levels import box_corners, fewest_steps, out_of_view, pixels_a_unit
 from reparam.geometry.meshes import MESHES
 from reparam.geometry.net import Array
 from reparam.geometry.surface_spline import surface_spline

@@ -2,10 +2,10 @@
 
 Twin: shaders/lib/levels.glsl, same names. The difference counts *at the same parameter*, so a
 texture lies where it belongs (Y. Yeo, L. Bin, J. Peters, Efficient pixel-accurate rendering of
-curved surfaces, I3D 2012). On a triangle with barycentric coordinates l and edges e, f differs from
-its linear interpolant by at most
+curved surfaces, I3D 2012). On a triangle with vertices v_i, barycentric coordinates l and edges e,
+f differs from its linear interpolant at p by
 
-    1/2 sum_(i<j) l_i l_j max |f''[e_ij, e_ij]|
+    sum_(i<j) l_i l_j f''[e_ij, e_ij]  averaged over the triangle (p, v_i, v_j), halved
 
 (S. Waldron, The error in linear interpolation at the vertices of a simplex, SIAM J. Numer. Anal.
 35, 1998). f''[(x,y), (x,y)] = x^2 f_uu + 2 x y f_uv + y^2 f_vv is taken as one vector, with f_uu,
@@ -15,134 +15,45 @@ CAGD 3, 1986: here a third more triangles, and more where it hurts most.) It hol
 whose edges go no further than a step each way: stitching.py makes such ones where levels change.
 
 Clip coordinates of a rational patch, under any camera, are polynomial in (u,v), and so are those
-drawn in a triangle; the bound is for their quotient.
+drawn in a triangle, X and W where the patch has x and w. With q = x/w at p, which is off by
+(X - q W) / W, the above is for f = x - q w. At any other p' of the triangle
+
+    |f''| / w  <=  what bends.py bounds  +  |q(p') - q| |w''| / w
+
+Let h be a step each way, w' the largest w in the triangle, g = h . growth, k = h . weight . h / 8
+with what bends.py has of w. Then W >= w' / r, r = 1 / (1 - g), and any linear interpolant of w is
+off by w' k at most. Two averages over p' in (p, v_i, v_j) remain.
+
+That of w. By interpolants it is at most W (1 + (n_i + n_j) / 3) + 4/3 w' k, where W (1 + n_i) is w
+at v_i and so sum l_i n_i = 0. Now M(l) = sum l_i l_j m_ij at l_i (1 + n_i / 3), which sum to 1 too,
+is sum l_i l_j m_ij (1 + (n_i + n_j) / 3 + n_i n_j / 9), and n_i n_j >= -(g r)^2 / 4: what is gained
+where w is large is lost elsewhere, and the largest M grows by its (g r / 6)^2 at most.
+
+That of |q(p') - q|. |p' - p| is a third of |v_i - p| + |v_j - p| on average, each way. This is no
+more than a step; or, near the third vertex, than 2 l_k > 1 steps: then with l_i = s a, l_j = s b,
+s = 1 - l_k, M is at most s (1-s) (a m_ik + b m_jk + 2 s a b m_ij), no more than where l_k = 1/2.
+
+So, with F half of the largest M by bends.py,
+
+    |X/W - q|  <=  F (1 + (g r / 6)^2 + 4/3 r k) + r k h . speed / 3
+
+in which r may be the ratio of weights, the bracket r, and h . speed / 3 the patch's extent.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .bends import TINY, Bends, likely_slope
 from .net import Array
 
 FINEST = 4096  # no level above
-TINY = 1e-30
-STEEPEST = 64.0  # of the slopes that a bound is kept for; beyond it is interpolated
 SLOPES = 9  # tried from the middle outwards
+SHORT = 4096.0  # steps that tell what a slope needs in the limit
+REFINED = 3  # times; what is estimated at too few steps is too many, and the other way round
 GROWTHS = 160  # that lead from 1 to FINEST
 TRIES = 6  # steps are made fewer so many times, one at a time
-
-
-@dataclass(frozen=True)
-class Bends:
-    """The largest second derivatives of nets (...,), in pixels, for edges (1, t) of any slope t.
-
-    With A, B, C the control points of f_uu, f_uv, f_vv: |A|, |B|, |C|; at three slopes t
-    |A +- t B|, |B +- t C| and |A +- 2 t B + t^2 C|; and of neighbouring slopes
-    |A +- (s + t) B + s t C|: as quadratics in t, Bezier form bounds them in between.
-    """
-
-    uu: Array
-    uv: Array
-    vv: Array
-    slopes: Array  # (..., 3)
-    from_u: Array  # (..., 3)
-    from_v: Array  # (..., 3)
-    edge: Array  # (..., 3)
-    between: Array  # (..., 2)
-    weight: Array  # (..., 3): the largest second derivatives of w
-    least: Array  # the smallest w
-    extent: Array  # pixels across all control points
-
-
-def second_derivative(nets: Array, axis: int) -> Array:
-    """The control points of d2/du2 (axis -3) or d2/dv2 (-2), raised to the degree of the net."""
-    points = np.moveaxis(nets, axis, -2)
-    degree = points.shape[-2] - 1
-    raised = np.zeros_like(points)
-    for i in range(degree + 1 if degree > 1 else 0):
-        weights = (i * (i - 1), 2 * i * (degree - i), (degree - i) * (degree - i - 1))
-        for k, weight in zip((i - 2, i - 1, i), weights, strict=True):
-            if weight:
-                a, b, c = (points[..., k + step, :] for step in range(3))
-                raised[..., i, :] += weight * ((a - b) - (b - c))
-    return np.moveaxis(raised, -2, axis)
-
-
-def mixed_derivative(nets: Array) -> Array:
-    """The control points of d2/dudv, raised to the degree of the net."""
-
-    def derivative(nets: Array, axis: int) -> Array:
-        points = np.moveaxis(nets, axis, -2)
-        degree = points.shape[-2] - 1
-        raised, legs = np.zeros_like(points), np.diff(points, axis=-2)
-        i = np.arange(degree)[:, None]
-        raised[..., 1:, :] += (i + 1) * legs
-        raised[..., :-1, :] += (degree - i) * legs
-        return np.moveaxis(raised, -2, axis)
-
-    return derivative(derivative(nets, -3), -2)
-
-
-def bends(nets: Array, scale: tuple[float, float]) -> Bends:
-    """Of nets (..., m, n, 4) in clip coordinates, with `scale` the viewport's half width and
-    height in pixels.
-
-    With x measured from the patch's own middle and the deviations E of x, y and w, x/w is off by
-    at most (E_x + |x/w| E_w) / (w - E_w), and |x/w| is at most the patch's half extent.
-    """
-    safe = np.where(nets[..., 3:] > 0.0, nets[..., 3:], 1.0)
-    places = nets[..., :2] / safe
-    low, high = places.min((-3, -2)), places.max((-3, -2))
-    centred = nets.copy()
-    centred[..., :2] -= ((low + high) / 2.0)[..., None, None, :] * nets[..., 3:]
-    centred[..., :2] *= np.array(scale)
-    reach = ((high - low) * np.array(scale) / 2.0)[..., None, None, :]
-    a, c = second_derivative(centred, -3), second_derivative(centred, -2)
-    b = mixed_derivative(centred)
-
-    def largest(derivative: Array) -> Array:
-        size = np.abs(derivative)
-        along = size[..., :2] + reach * size[..., 3:]
-        return np.asarray(np.hypot(along[..., 0], along[..., 1]).max((-2, -1)))
-
-    def either(x: Array, y: Array, z: Array | None = None) -> Array:
-        rest = x if z is None else x + z
-        return np.maximum(largest(rest + y), largest(rest - y))
-
-    uu, uv, vv = largest(a), largest(b), largest(c)
-    slope = np.clip(np.sqrt((uu + TINY) / (vv + TINY)), 1.0 / STEEPEST, STEEPEST)
-    slopes = slope[..., None] * np.array([0.5, 1.0, 2.0])
-    t = [slopes[..., k][..., None, None, None] for k in range(3)]
-    return Bends(
-        uu, uv, vv, slopes,
-        np.stack([either(a, t[k] * b) for k in range(3)], -1),
-        np.stack([either(b, t[k] * c) for k in range(3)], -1),
-        np.stack([either(a, 2.0 * t[k] * b, t[k] ** 2 * c) for k in range(3)], -1),
-        np.stack(
-            [either(a, (t[k] + t[k + 1]) * b, t[k] * t[k + 1] * c) for k in range(2)], -1
-        ),
-        np.stack([np.abs(d[..., 3]).max((-2, -1)) for d in (a, b, c)], -1),
-        least_weight(nets[..., 3]),
-        2.0 * np.hypot(reach[..., 0, 0, 0], reach[..., 0, 0, 1]),
-    )  # fmt: skip
-
-
-def least_weight(weights: Array) -> Array:
-    """A bound (...,) from below of w over patches with weights (..., m, n), not positive if one of
-    them is not: the least weight when the degrees are raised by one, which is nearer to the truth.
-    """
-
-    def raised(values: Array) -> Array:
-        padded = np.concatenate([values[..., :1], values, values[..., -1:]], -1)
-        share = np.arange(values.shape[-1] + 1) / values.shape[-1]
-        return np.asarray(share * padded[..., :-1] + (1.0 - share) * padded[..., 1:])
-
-    least = weights.min((-2, -1))
-    both = raised(raised(weights).swapaxes(-1, -2))
-    return np.asarray(np.where(least > 0.0, both.min((-2, -1)), least))
 
 
 def isosceles(base: Array, side: Array) -> Array:
@@ -193,19 +104,22 @@ def _parabola(a: Array, b: Array, c: Array, t: Array) -> Array:
 def share_used(s: Bends, steps: Array, tolerance: float, scale: ArrayLike = 1.0) -> Array:
     """How much of the tolerance (in pixels) `steps` (..., 2) in u and v use up; 1 is all.
 
-    Lengths are `scale` (...,) times as many pixels as `s` has. Infinite where w <= 0. The shares
-    of a position and of its map add up.
+    Lengths are `scale` (...,) times as many pixels as `s` has. Infinite where a weight is not
+    positive. The shares of a position and of its map add up.
     """
-    nu, nv = np.moveaxis(np.asarray(steps, np.float64), -1, 0)
-    t = nu / nv
+    h = 1.0 / np.asarray(steps, np.float64)
+    squares = np.stack([h[..., 0] ** 2, 2.0 * h[..., 0] * h[..., 1], h[..., 1] ** 2], -1) / 8.0
+    t = h[..., 1] / h[..., 0]
     base = np.maximum(s.uu, t**2 * s.vv)
-    off = isosceles(base, edge_bend(s, t)) / 2.0 / nu**2
-    weight = (
-        s.weight[..., 0] / nu**2 + 2.0 * s.weight[..., 1] / (nu * nv) + s.weight[..., 2] / nv**2
-    )
-    with np.errstate(divide="ignore", invalid="ignore"):
-        used = (scale * off + tolerance * weight / 8.0) / (tolerance * s.least)
-    return np.asarray(np.where(s.least > 0.0, used, np.inf))
+    bend = isosceles(base, edge_bend(s, t)) / 2.0 * h[..., 0] ** 2 + (s.spread * squares).sum(-1)
+    weight, growth = (s.weight * squares).sum(-1), (s.growth * h).sum(-1)
+    clear = np.maximum(1.0 - growth, TINY)
+    ratio = np.minimum(1.0 / clear, s.ratio)
+    moved = np.minimum((s.speed * h).sum(-1) / 3.0, s.extent)
+    with np.errstate(invalid="ignore"):
+        uneven = np.minimum(ratio, 1.0 + (ratio * growth / 6.0) ** 2 + ratio * weight * 4.0 / 3.0)
+        off = bend * uneven + ratio * weight * moved
+    return np.asarray(np.where(np.isfinite(s.ratio), scale * off / tolerance, np.inf))
 
 
 def pixels_a_unit(clip: Array, maps: Array, half: tuple[float, float]) -> Array:
@@ -245,16 +159,24 @@ def fewest_steps(
             return share
         return np.asarray(share + share_used(sought, steps, tolerance, unit))
 
+    def enough(steps: Array) -> Array:
+        return np.asarray(np.maximum(steps * np.minimum(used(steps) ** 0.5, 1e9)[..., None], 1.0))
+
+    uu, uv, vv = seen.uu, seen.uv, seen.vv
+    if sought is not None and unit is not None:
+        uu, uv, vv = uu + unit * sought.uu, uv + unit * sought.uv, vv + unit * sought.vv
+    slope = likely_slope(uu + uv / 16.0, vv + uv / 16.0)
     steps, best = np.ones((*seen.uu.shape, 2)), np.full(seen.uu.shape, np.inf)
     for k in range(SLOPES):
-        t = seen.slopes[..., 1] * 2.0 ** ((k + 1) // 2 * (-0.5 if k % 2 else 0.5))
-        along = np.minimum(used(np.stack([np.ones_like(t), 1.0 / t], -1)) ** 0.5, 1e9)
-        trial = np.maximum(np.stack([along, along / t], -1), 1.0)
+        t = slope * 2.0 ** ((k + 1) // 2 * (-0.5 if k % 2 else 0.5))
+        trial = enough(enough(SHORT * np.stack([np.ones_like(t), 1.0 / t], -1)))
         fewer = trial.prod(-1) < 0.999 * best
         steps, best = (
             np.where(fewer[..., None], trial, steps),
             np.where(fewer, trial.prod(-1), best),
         )
+    for _ in range(REFINED):
+        steps = enough(steps)
     steps = np.minimum(np.ceil(steps), FINEST)
     for _ in range(GROWTHS):
         more = used(steps) > 1.0
@@ -268,7 +190,7 @@ def fewest_steps(
             trial = np.maximum(now + np.array(change), 1.0)
             fewer = (trial.prod(-1) < steps.prod(-1)) & (used(trial) <= 1.0)
             steps = np.where(fewer[..., None], trial, steps)
-    tiny = (seen.extent <= tolerance) & (seen.least > 0.0)
+    tiny = (seen.extent <= tolerance) & np.isfinite(seen.ratio)
     return np.asarray(np.where(tiny[..., None], 1.0, steps).astype(np.int64))
 
 
