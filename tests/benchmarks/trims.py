@@ -1,15 +1,20 @@
 """A patch trimmed by 10,000 pieces against the same patch untrimmed: a lit, textured frame.
 
 `shores`: 64 holes with wavy borders, 156 or 157 cubics each. `dots`: 2500 round holes of four
-arcs, whose borders are within a pixel of a quarter of all pixels.
+arcs, whose borders are within a pixel of a quarter of all pixels. From above, in two closer views,
+and as a body in perspective, the whole and a part of it.
 """
 
 from __future__ import annotations
+
+from functools import partial
+from itertools import product
 
 import numpy as np
 from frames import FROM_ABOVE, frames, wavy_patches
 
 from reparam.bench import Rows, interleave
+from reparam.geometry.camera import Camera
 from reparam.geometry.net import Array, control_net
 from reparam.geometry.trimming import TrimRegion, trim_region
 from reparam.scenes.layers import Patches, Picture, Texture
@@ -63,29 +68,46 @@ def dots() -> TrimRegion:
     return trim_region(loops)
 
 
+def tilted(half_width: float) -> Camera:
+    """A body seen from above its front, in perspective."""
+    c, s = np.cos(0.9), np.sin(0.9)
+    rotation = np.array([[1.0, 0.0, 0.0], [0.0, c, s], [0.0, -s, c]])
+    return Camera(rotation, np.zeros(3), half_width, half_width, 4.0, distance=4.0)
+
+
+VIEWS = {
+    "above": (FROM_ABOVE, False),
+    "close": (Camera(np.eye(3), np.zeros(3), 0.4, 0.4, 4.0), False),
+    "closer": (Camera(np.eye(3), np.zeros(3), 0.1, 0.1, 4.0), False),
+    "space": (tilted(1.0), True),
+    "space, close": (tilted(0.4), True),
+}
+"""Cameras, and whether what they show is spatial: then each of a pixel's samples is decided."""
+
+
 def rows(pairs: int) -> Rows:
-    """Each region, on each evaluator that there is, with the samples of a picture and with one."""
+    """Each region in each view, on each evaluator that there is, with the samples of a picture and
+    with one."""
     studio = Studio()
     net = wavy_patches(1, 3)
     texture = Texture(IDENTITY, Picture())
     whole = Patches(net, texture, lit=True)
-    capabilities = studio.painter.capabilities
-    evaluators = ["vertex", *["tessellation"] * capabilities.tessellation]
+    evaluators = ["vertex", *["tessellation"] * studio.painter.capabilities.tessellation]
     for name, region in (("shores", shores()), ("dots", dots())):
         trimmed = Patches(net, texture, lit=True, trim=region)
-        for evaluator in evaluators:
-            for samples in (0, 1):
-                with frames(studio, SIZE, samples) as frame:
-                    ours, other = (
-                        frame(lambda layer=layer, chosen=evaluator: studio.painter.surfaces.draw(
-                            layer, FROM_ABOVE, chosen, LEVEL
-                        ))
-                        for layer in (trimmed, whole)
-                    )  # fmt: skip
-                    times = interleave(ours, other, pairs)
-                settings = {"evaluator": evaluator, "level": LEVEL, "pieces": PIECES}
-                yield times.row(
-                    f"trims/{name}/{evaluator}/{'one sample' if samples else 'samples'}",
-                    goal=GOAL,
-                    **settings,
+        for view, evaluator, samples in product(VIEWS, evaluators, (0, 1)):
+            camera, spatial = VIEWS[view]
+            draw = partial(studio.painter.surfaces.draw, spatial=spatial)
+            with frames(studio, SIZE, samples) as frame:
+                ours, other = (
+                    frame(partial(draw, layer, camera, evaluator, LEVEL))
+                    for layer in (trimmed, whole)
                 )
+                times = interleave(ours, other, pairs)
+            yield times.row(
+                f"trims/{name}/{view}/{evaluator}/{'one sample' if samples else 'samples'}",
+                goal=GOAL,
+                evaluator=evaluator,
+                level=LEVEL,
+                pieces=PIECES,
+            )

@@ -82,8 +82,10 @@ def stage_source(
         constants |= {"FARTHEST": FARTHEST}
     if "TRIMMED" in defines:
         from ..geometry.trimming.cells import DIVISION, MARGIN  # a plain picture starts without
+        from ..geometry.trimming.cutting import BUMP_STEP, STEPS
 
         constants |= {"TRIM_DIVISION": DIVISION, "TRIM_MARGIN": MARGIN}
+        constants |= {"TRIM_STEPS": STEPS, "TRIM_BUMP_STEP": BUMP_STEP}
     text = "".join(f"#define {key} {value}\n" for key, value in constants.items())
     return expand_shader(name, texts, VERSIONS[version] + text)
 

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-TRIM_DEFINES = ("TRIMMED", "ANTIALIASED", "BY_SAMPLE", "TRIM_DIVIDED")
+TRIM_DEFINES = ("TRIMMED", "ANTIALIASED", "BY_SAMPLE", "TRIM_DIVIDED", "TRIM_GRIDS")
 
 Edges = Literal["pixels", "samples", "shares"]  # what decides: centres, samples, or how much stays
 TRIMMED_TILE = 8  # steps: of a trimmed surface only tiles near its curves look them up
@@ -96,10 +96,11 @@ class Trims:
         bound = (textures.nodes, textures.below, textures.pieces)
         for number, texture in enumerate(bound, start=unit):
             texture.use(number)
-        step = 1.0 / textures.pieces.width, 1.0 / textures.pieces.height
-        program.set(trim_nodes=unit, trim_pieces=unit + 2, trim_step=step, trim_side=packed.side)
+        program.set(trim_nodes=unit, trim_node_step=_step(textures.nodes))
+        program.set(trim_pieces=unit + 2, trim_piece_step=_step(textures.pieces))
+        program.set(trim_side=packed.sides[0])
         if program.defines & {"ANTIALIASED", "BY_SAMPLE"}:
-            program.set(trim_shares=2 * len(packed.pieces), trim_coarsest=len(packed.shares) - 1)
+            program.set(trim_shares=len(packed.pieces), trim_coarsest=len(packed.shares) - 1)
         if "BY_SAMPLE" in program.defines:
             program.set(samples=self._ctx.fbo.samples)
         if "TRIM_DIVIDED" in program.defines:
@@ -183,19 +184,25 @@ class Trims:
                 yield Part(which == CUT, self._ctx.buffer(chosen.tobytes()), chosen.size)
 
     def _upload(self, packed: PackedTrim) -> TrimTextures:
-        from ..geometry.trimming.packing import corner_shares
+        from ..geometry.trimming.shares import corner_shares
 
-        first = packed.side**2
+        widest, below = packed.sides[0], packed.cells
         nodes = np.zeros((len(packed.nodes), 4 if packed.divided else 2), np.int32)
         nodes[:, :2] = packed.nodes
         if packed.divided:
-            nodes[:, 2] = packed.divisions - first
-        shares = [corner_shares(level).reshape(-1, 4) for level in packed.shares]
-        pieces = np.concatenate([packed.pieces.reshape(-1, 4), *shares, np.zeros((1, 4))])
+            nodes[:, 2] = packed.divisions - below
+        grids, before = np.zeros((sum(packed.sides), widest, nodes.shape[1]), np.int32), 0
+        for side in packed.sides:
+            own = nodes[before : before + side**2].reshape(side, side, -1)
+            grids[2 * (widest - side) : 2 * widest - side, :side] = own
+            before += side**2
+        shares = [corner_shares(level).reshape(-1) for level in packed.shares]
+        fours = np.concatenate([*shares, np.zeros(16, np.uint8)])
+        fours = fours[: len(fours) // 16 * 16].view(np.int32).reshape(-1, 4)
         return TrimTextures(
-            self._table(nodes[:first], "i4", packed.side),
-            self._table(nodes[first:], "i4"),
-            self._table(pieces.astype(np.float32), "f4"),
+            self._table(grids.reshape(-1, nodes.shape[1]), "i4", widest),
+            self._table(nodes[below:], "i4"),
+            self._table(np.concatenate([packed.pieces, fours]), "i4"),
         )
 
     def _table(
@@ -234,12 +241,17 @@ def trim_defines(region: TrimRegion, edges: Edges) -> dict[str, int]:
         "BY_SAMPLE": edges == "samples",
         "TRIM_DIVIDED": region.pack().divided,
     }
-    return {name: 1 for name, on in wanted.items() if on}
+    grids = {"TRIM_GRIDS": len(region.pack().sides)}
+    return grids | {name: 1 for name, on in wanted.items() if on}
 
 
 def decided(defines: dict[str, int | str], trimmed: bool) -> dict[str, int | str]:
     """The defines for what is trimmed, or for a part that no curve comes near."""
     return {k: v for k, v in defines.items() if trimmed or k not in TRIM_DEFINES}
+
+
+def _step(texture: moderngl.Texture) -> tuple[float, float]:
+    return 1.0 / texture.width, 1.0 / texture.height
 
 
 def _bytes(domains: Array | None) -> bytes:

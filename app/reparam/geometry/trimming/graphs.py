@@ -13,6 +13,7 @@ a step of float32 at 1. The slope is at most 1, so what is off in f is not less 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -20,6 +21,7 @@ from .pieces import STRAIGHT, Array, Indices, Mask, Pieces, on_border
 
 FIT = 5e-8  # of the domain
 SHORTEST = 1e-8
+MOST_STEPS = 60
 TERMS = 8  # of the bump
 CHECKS = np.array([0.013, 0.07, 0.3, 0.5, 0.7, 0.93, 0.987])  # and here it is most off
 FLAT, STEEP = 0, 1
@@ -38,7 +40,7 @@ NODES, TO_BUMP = bump_basis(TERMS)
 @dataclass(frozen=True, eq=False)
 class Graphs:
     """n directed graphs: axis (n,), FLAT: v over u, STEEP: u over v; ends (n, 2, 2) as (u, v);
-    bump (n, TERMS): b0, b1 ..."""
+    bump (n, terms): b0, b1 ..."""
 
     axis: Indices
     ends: Array
@@ -51,37 +53,90 @@ class Graphs:
         """Some of the graphs."""
         return Graphs(self.axis[index], self.ends[index], self.bump[index])
 
-    def along(self, index: Indices) -> tuple[Array, Array]:
-        """(start, end) in the axis that the graphs are over, and in the other: (k, 2) each."""
-        number = np.arange(len(index))
-        ends, axis = self.ends[index], self.axis[index]
-        return ends[number, :, axis], ends[number, :, 1 - axis]
+    @cached_property
+    def x(self) -> Array:
+        """(start, end) in the axis that the graphs are over: (n, 2)."""
+        return np.where((self.axis == STEEP)[:, None], self.ends[..., 1], self.ends[..., 0])
+
+    @cached_property
+    def y(self) -> Array:
+        """(start, end) in the other axis: (n, 2)."""
+        return np.where((self.axis == STEEP)[:, None], self.ends[..., 0], self.ends[..., 1])
+
+    @cached_property
+    def bent(self) -> Mask:
+        """Which are no straight lines: (n,)."""
+        return np.asarray(self.bump.any(1))
+
+    @cached_property
+    def powers(self) -> Array:
+        """f as a polynomial in tau, lowest power first: (terms + 2, n)."""
+        result = np.zeros((self.bump.shape[1] + 2, len(self)))
+        result[0], result[1] = self.y[:, 0], self.y[:, 1] - self.y[:, 0]
+        result[1:-1] += self.bump.T
+        result[2:] -= self.bump.T
+        return result
+
+    def taus(self, index: Indices, x: Array) -> Array:
+        """tau of the graphs with these numbers at x: (k,)."""
+        x0, x1 = self.x[index].T
+        return np.asarray((x - x0) / (x1 - x0))
 
     def values(self, index: Indices, x: Array) -> Array:
         """f of the graphs with these numbers at x: (k,)."""
-        (x0, x1), (y0, y1) = (pair.T for pair in self.along(index))
-        tau = (x - x0) / (x1 - x0)
-        return np.asarray(y0 + tau * (y1 - y0 + (1.0 - tau) * horner(self.bump[index], tau)))
+        tau, (y0, y1) = self.taus(index, x), self.y[index].T
+        result = np.asarray(y0 + tau * (y1 - y0))
+        bent = np.flatnonzero(self.bent[index])
+        tau = tau[bent]
+        result[bent] += tau * (1.0 - tau) * horner(self.bump.T[:, index[bent]], tau)
+        return result
 
     def solve(self, index: Indices, y: Array) -> Array:
-        """Where f takes the values y, by bisection, as f is monotone: (k,)."""
-        (x0, x1), (y0, y1) = (pair.T for pair in self.along(index))
-        bump, low, high = self.bump[index], np.zeros(len(index)), np.ones(len(index))
-        sign = np.where(y1 >= y0, 1.0, -1.0)
-        for _ in range(50):
-            tau = (low + high) / 2.0
-            value = y0 + tau * (y1 - y0 + (1.0 - tau) * horner(bump, tau))
-            before = (value - y) * sign < 0.0
-            low, high = np.where(before, tau, low), np.where(before, high, tau)
-        return np.asarray(x0 + (low + high) / 2.0 * (x1 - x0))
+        """Where f takes the values y, as f is monotone: (k,).
+
+        Newton's method, with bisection where it leaves the bracket.
+        """
+        powers, rising = self.powers[:, index], self.y[index, 1] >= self.y[index, 0]
+        low, high = np.zeros(len(index)), np.ones(len(index))
+        result, active = np.full(len(index), 0.5), np.arange(len(index))
+        for _ in range(MOST_STEPS):
+            if len(active) == 0:
+                break
+            tau = result[active]
+            off = horner(powers, tau) - y
+            below = (off < 0.0) == rising
+            low, high = np.where(below, tau, low), np.where(below, high, tau)
+            slope = horner(powers[1:] * np.arange(1.0, len(powers))[:, None], tau)
+            after = tau - off / np.where(slope == 0.0, 1.0, slope)
+            within = (slope != 0.0) & (low <= after) & (after <= high)
+            after = np.where(within, after, (low + high) / 2.0)
+            result[active] = after
+            going = np.abs(after - tau) > 1e-13
+            active, powers, y, rising = active[going], powers[:, going], y[going], rising[going]
+            low, high = low[going], high[going]
+        x0, x1 = self.x[index].T
+        return np.asarray(x0 + result * (x1 - x0))
 
 
 def horner(coefficients: Array, t: Array) -> Array:
-    """Polynomials (n, k), lowest power first, at t (n,)."""
-    result = coefficients[:, -1]
-    for column in coefficients.T[-2::-1]:
-        result = column + t * result
+    """Polynomials (k, n), lowest power first, at t (n,) or (m, n)."""
+    result = coefficients[-1]
+    for row in coefficients[-2::-1]:
+        result = row + t * result
     return np.asarray(result)
+
+
+def moved(powers: Array, start: Array, length: Array) -> Array:
+    """Polynomials (k, n) in tau as ones in s, tau = start + s length: (k, n)."""
+    result = powers.copy()
+    for first in range(len(result) - 1):
+        for row in range(len(result) - 2, first - 1, -1):
+            result[row] += start * result[row + 1]
+    scale = np.ones(len(length))
+    for row in range(1, len(result)):
+        scale = scale * length
+        result[row] *= scale
+    return result
 
 
 def bump_of(interior: Array, first: Array, last: Array) -> Array:

@@ -2,92 +2,105 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
 from .cells import DIVISION, MARGIN
+from .cutting import BUMP_STEP, STEPS
 from .graphs import horner
-from .packing import (
-    FLAT_PIECE,
-    KIND,
-    KINDS,
-    STEEP_PIECE,
-    WINDING,
-    PackedTrim,
-    corner_shares,
-)
+from .packing import FLAT_PIECE, KINDS, STEEP_PIECE, WINDING, PackedTrim
 from .pieces import Array, Indices
+from .shares import WHOLE, corner_shares
 from .winding import expand
 
 OUTSIDE, INSIDE, CUT = 0, 1, 2
 WITHIN = INSIDE, CUT  # of which something stays
 
 
-def find_leaf(
-    packed: PackedTrim, points: Array, reach: Array | None = None
-) -> tuple[Indices, Array]:
-    """The node (k,) of the smallest cell that points (k, 2) of the unit square lie in, its size.
+@dataclass(frozen=True)
+class Cells:
+    """Where points are: the node (k,), the cell's size (k,) and its middle (k, 2)."""
 
-    With `reach` (k, 2), how far pixels extend to each side: the smallest cell whose margin is
-    as wide, or one of the first grid.
+    node: Indices
+    size: Array
+    middle: Array
+
+
+def find_leaf(packed: PackedTrim, points: Array, reach: Array | None = None) -> Cells:
+    """The smallest cells that points (k, 2) of the unit square lie in.
+
+    With `reach` (k, 2), how far pixels extend to each side: the smallest ones whose margin is as
+    wide, or those of the coarsest grid.
     """
-    place = np.clip(points, 0.0, 1.0)
-    node = np.zeros(len(points), dtype=np.intp)
-    first, division = np.zeros(len(points), dtype=np.intp), packed.side
-    size = np.ones(len(points))
-    active = np.arange(len(points))
+    inside = np.clip(points, 0.0, 1.0)
+    most = np.zeros(len(points)) if reach is None else reach.max(1)
+    sides = np.array(packed.sides)
+    grid = np.minimum((most[:, None] > MARGIN / sides).sum(1), len(sides) - 1)
+    side, before = sides[grid], (np.cumsum(sides**2) - sides**2)[grid]
+    place = inside * side[:, None]
+    cell = np.minimum(place.astype(np.intp), side[:, None] - 1)
+    node, size = before + cell[:, 1] * side + cell[:, 0], 1.0 / side
+    corner, active = cell * size[:, None], np.arange(len(points))
     while len(active):
-        scaled = place[active] * division
-        cell = np.minimum(scaled.astype(np.intp), division - 1)
-        place[active] = scaled - cell
-        size[active] /= division
-        node[active] = first[active] + cell[:, 1] * division + cell[:, 0]
-        first[active] = packed.divisions[node[active]]
-        division = DIVISION
-        deeper = first[active] > 0
-        if reach is not None:
-            deeper &= reach[active].max(1) <= MARGIN * size[active] / DIVISION
-        active = active[deeper]
-    return node, size
+        first = packed.divisions[node[active]]
+        deeper = (first > 0) & (most[active] <= MARGIN * size[active] / DIVISION)
+        active, first = active[deeper], first[deeper]
+        size[active] /= DIVISION
+        own = size[active, None]
+        cell = ((inside[active] - corner[active]) / own).astype(np.intp).clip(0, DIVISION - 1)
+        corner[active] += cell * own
+        node[active] = first + cell[:, 1] * DIVISION + cell[:, 0]
+    return Cells(node, size, corner + size[:, None] / 2.0)
 
 
-def kinds_and_winding(packed: PackedTrim, node: Indices) -> tuple[Indices, Indices]:
-    """How many pieces of each of KINDS nodes (k,) have, (k, 3), and their winding numbers (k,)."""
-    first, kinds = packed.nodes[node].astype(np.intp).T
-    told = np.maximum(kinds, 0)
-    counts = np.stack([told % KIND, told // KIND % KIND, told // KIND**2], -1)
-    return counts, first // WINDING
+def counts_and_windings(packed: PackedTrim, node: Indices) -> tuple[Indices, Indices]:
+    """How many pieces nodes (k,) have, and their winding numbers: (k,) each."""
+    told = packed.nodes[node, 1].astype(np.intp)
+    return told % WINDING, told // WINDING
 
 
-def _pieces_of(packed: PackedTrim, leaf: Indices) -> tuple[Indices, Indices, Array]:
-    """For each of the leaves, its pieces: which of the leaves, their kinds, (m,) each, and their
-    numbers (m, 8)."""
-    counts, _ = kinds_and_winding(packed, leaf)
-    number, place = expand(packed.nodes[leaf, 0].astype(np.intp) % WINDING, counts.sum(1))
-    kind = np.repeat(np.tile(KINDS, len(leaf)), counts.ravel())
-    return number, kind, packed.pieces[place].astype(np.float64).reshape(-1, 8)
+def _pieces_of(packed: PackedTrim, cells: Cells) -> tuple[Indices, Indices, Array]:
+    """For each of the cells, its pieces: which of the cells, their kinds, (m,) each, and their
+    numbers (m, 8): (x0, x1, y0, y1 - y0) and b0 .. b3, in the unit square."""
+    counts, _ = counts_and_windings(packed, cells.node)
+    number, place = expand(packed.nodes[cells.node, 0].astype(np.intp), counts)
+    packs = packed.pieces[place]
+    low, high = packs.astype(np.int16).astype(np.float64), packs >> 16
+    kind = (high[:, 3] & (KINDS - 1)).astype(np.intp)
+    high[:, 3] -= kind
+    step = cells.size[number, None] / STEPS
+    steep = (kind == STEEP_PIECE)[:, None]
+    middle = np.where(steep, cells.middle[number, ::-1], cells.middle[number])
+    piece = np.empty((len(place), 8))
+    piece[:, :2] = middle[:, :1] + step * np.stack([low[:, 0], high[:, 0]], -1)
+    piece[:, 2] = middle[:, 1] + step[:, 0] * low[:, 1]
+    piece[:, 3] = step[:, 0] * (high[:, 1] - low[:, 1])
+    piece[:, 4::2], piece[:, 5::2] = BUMP_STEP * step * low[:, 2:], BUMP_STEP * step * high[:, 2:]
+    return number, kind, piece
 
 
 def boxes_kept(packed: PackedTrim, low: Array, high: Array) -> NDArray[np.int8]:
     """What stays of boxes [low, high] (n, 2) of the unit square: OUTSIDE, INSIDE, or CUT where a
-    curve may come near: (n,). By cells of the first grid, summed up beforehand."""
-    grid = packed.nodes[: packed.side**2].reshape(packed.side, packed.side, 2)
-    met = grid[..., 1] != 0
-    total = np.pad(met.astype(np.int64).cumsum(0).cumsum(1), ((1, 0), (1, 0)))
+    curve may come near: (n,). By cells of the finest grid, summed up beforehand."""
+    side = packed.sides[0]
+    count, winding = counts_and_windings(packed, np.arange(side**2))
+    total = np.pad((count > 0).reshape(side, side).cumsum(0).cumsum(1), ((1, 0), (1, 0)))
     first, last = (
-        np.clip(np.floor(box * packed.side + slack), 0, packed.side - 1).astype(np.intp)
+        np.clip(np.floor(box * side + slack), 0, side - 1).astype(np.intp)
         for box, slack in ((low, -1e-6), (high, 1e-6))
     )
     (i, j), (k, m) = first.T, last.T
     count = total[m + 1, k + 1] - total[j, k + 1] - total[m + 1, i] + total[j, i]
-    alike = np.where(grid[j, i, 0] // WINDING != 0, INSIDE, OUTSIDE)
+    alike = np.where(winding[j * side + i] != 0, INSIDE, OUTSIDE)
     return np.where(count > 0, CUT, alike).astype(np.int8)
 
 
 def height(piece: Array, x: Array) -> Array:
     """f(x) of pieces (m, 8) at (m,)."""
     tau = (x - piece[:, 0]) / (piece[:, 1] - piece[:, 0])
-    return np.asarray(piece[:, 2] + tau * (piece[:, 3] + (1.0 - tau) * horner(piece[:, 4:], tau)))
+    return np.asarray(piece[:, 2] + tau * (piece[:, 3] + (1.0 - tau) * horner(piece.T[4:], tau)))
 
 
 def turns(kind: Indices, piece: Array, x: Array, y: Array, value: Array) -> Indices:
@@ -109,12 +122,12 @@ def turns(kind: Indices, piece: Array, x: Array, y: Array, value: Array) -> Indi
 
 def winding_number(packed: PackedTrim, points: Array) -> Indices:
     """1 where the surface stays and 0 where not, at points (k, 2) of the unit square: (k,)."""
-    leaf, _ = find_leaf(packed, points)
+    leaf = find_leaf(packed, points)
     number, kind, piece = _pieces_of(packed, leaf)
     x, y = _along(kind, points[number])
     here = np.clip(x, piece[:, :2].min(1), piece[:, :2].max(1))
     met = np.bincount(number, turns(kind, piece, x, y, height(piece, here)), len(points))
-    return np.asarray(kinds_and_winding(packed, leaf)[1] + met.round().astype(np.intp))
+    return np.asarray(counts_and_windings(packed, leaf.node)[1] + met.round().astype(np.intp))
 
 
 def _along(kind: Indices, pairs: Array) -> tuple[Array, Array]:
@@ -132,7 +145,7 @@ def pixel_coverage(packed: PackedTrim, points: Array, across: Array, up: Array) 
     """
     reach = (np.abs(across) + np.abs(up)) / 2.0
     wide = np.sqrt(np.maximum((across**2).sum(1), (up**2).sum(1)))
-    leaf, size = find_leaf(packed, points, reach)
+    leaf = find_leaf(packed, points, reach)
     number, kind, piece = _pieces_of(packed, leaf)
     determinant = across[:, 0] * up[:, 1] - across[:, 1] * up[:, 0]
     (x, y), (half, rise) = _along(kind, points[number]), _along(kind, reach[number])
@@ -152,9 +165,8 @@ def pixel_coverage(packed: PackedTrim, points: Array, across: Array, up: Array) 
         offsets.append(to_pixels(off, across[number], up[number], determinant[number]))
     swept = swept_area(offsets[0], offsets[1]) + swept_area(offsets[1], offsets[2])
     total = np.bincount(number, met + np.sign(determinant)[number] * swept, len(points))
-    coverage = kinds_and_winding(packed, leaf)[1] + total
-    coarse = (reach > MARGIN * size[:, None]).any(1) | (determinant == 0.0)
-    coarse |= packed.nodes[leaf, 1] < 0
+    coverage = counts_and_windings(packed, leaf.node)[1] + total
+    coarse = (reach > MARGIN * leaf.size[:, None]).any(1) | (determinant == 0.0)
     return np.where(coarse, cell_share(packed, points, wide), coverage.clip(0.0, 1.0))
 
 
@@ -169,7 +181,7 @@ def cell_share(packed: PackedTrim, points: Array, wide: Array) -> Array:
         place = points[here].clip(0.0, 1.0) * len(shares) + 0.5
         corner = np.minimum(place.astype(np.intp), len(shares))
         u, v = (place - corner).T
-        a, b, c, d = corner_shares(shares)[corner[:, 1], corner[:, 0]].T
+        a, b, c, d = corner_shares(shares)[corner[:, 1], corner[:, 0]].T / WHOLE
         found[here] = (1 - v) * (a + u * (b - a)) + v * (c + u * (d - c))
     return found
 

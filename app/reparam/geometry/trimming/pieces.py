@@ -23,6 +23,8 @@ Mask = NDArray[np.bool_]
 
 STRAIGHT = -1
 MOST_STEPS = 110
+NO_STEP, ROUNDING = 4e-16, 1.2e-16  # of the parameter; of a coordinate up to 1
+PORTION = 1 << 12  # of curves at a time: what stays in a processor's cache
 LEAST_SPAN = 1e-9  # turning within so short a stretch is less than rounding
 
 
@@ -98,27 +100,16 @@ class Pieces:
         """
         start, end = self.ends[index, 0, axis], self.ends[index, 1, axis]
         chord = np.where(end != start, end - start, 1.0)
-        low, high = self.span[index].T.copy()
+        low, high = self.span[index].T
         t: Array = low + np.clip((value - start) / chord, 0.0, 1.0) * (high - low)
-        active = np.flatnonzero(self.table[index] != STRAIGHT)
-        low, high, sign = low[active], high[active], np.sign(chord[active])
-        last = high - low
-        for _ in range(MOST_STEPS):
-            if len(active) == 0:
-                break
-            here, piece = t[active], index[active]
-            off = (self.points(piece, here)[:, axis] - value[active]) * sign
-            slope = self.velocities(piece, here)[:, axis] * sign
-            low, high = np.where(off < 0.0, here, low), np.where(off < 0.0, high, here)
-            after = here - off / np.where(slope > 0.0, slope, 1.0)
-            newton = (slope > 0.0) & (low <= after) & (after <= high)
-            newton &= np.abs(after - here) <= last / 2.0
-            after = np.where(newton, after, (low + high) / 2.0)
-            last = np.abs(after - here)
-            t[active] = after
-            going = (last > 2e-16) & (off != 0.0)
-            t[active[off == 0.0]] = here[off == 0.0]
-            active, low, high, sign, last = (x[going] for x in (active, low, high, sign, last))
+        table, sign = self.table[index], np.sign(chord)
+        for number, curves in enumerate(self.curves):
+            members = np.flatnonzero(table == number)
+            for first in range(0, len(members), PORTION):
+                here = members[first : first + PORTION]
+                nets = np.moveaxis(curves[self.row[index[here]]][..., [axis, 2]], 0, -1)
+                span = low[here], high[here]
+                t[here] = _solved(nets, value[here], sign[here], t[here], *span)
         return t
 
     def split(self, index: Indices, t: Array, at: Array) -> Pieces:
@@ -151,6 +142,43 @@ def curve_velocities(curves: Array, t: Array) -> Array:
     slope = np.einsum("nk,nkc->nc", bernstein_derivative(degree, t), curves)
     w = point[:, 2:]
     return np.asarray((slope[:, :2] - slope[:, 2:] * point[:, :2] / w) / w)
+
+
+def _solved(nets: Array, value: Array, sign: Array, t: Array, low: Array, high: Array) -> Array:
+    """Where coordinates with control points nets (k, 2, n), of (w x, w), take values (n,), from
+    t on within [low, high]: (n,). `sign` says whether they rise or fall."""
+    result, active, last = t.copy(), np.arange(len(t)), high - low
+    for _ in range(MOST_STEPS):
+        if len(active) == 0:
+            break
+        x, slope = _coordinate(nets, t)
+        off, slope = (x - value) * sign, slope * sign
+        low, high = np.where(off < 0.0, t, low), np.where(off < 0.0, high, t)
+        after = t - off / np.where(slope > 0.0, slope, 1.0)
+        newton = (slope > 0.0) & (low <= after) & (after <= high)
+        newton &= np.abs(after - t) <= last / 2.0
+        after = np.where(newton, after, (low + high) / 2.0)
+        found = np.abs(off) < ROUNDING
+        after = np.where(found, t, after)
+        last = np.abs(after - t)
+        result[active] = t = after
+        going = last > NO_STEP
+        if not going.all():
+            active, nets = active[going], nets[..., going]
+            value, sign, t = value[going], sign[going], t[going]
+            low, high, last = low[going], high[going], last[going]
+    return result
+
+
+def _coordinate(nets: Array, t: Array) -> tuple[Array, Array]:
+    """x and dx/dt of rational curves by their control points (k, 2, n) of (w x, w): (n,) each."""
+    degree = len(nets) - 1
+    for _ in range(degree - 1):
+        nets = nets[:-1] + t * (nets[1:] - nets[:-1])
+    way = nets[1] - nets[0]
+    (x, w), (dx, dw) = nets[0] + t * way, degree * way
+    x = x / w
+    return x, (dx - dw * x) / w
 
 
 def turning_points(curves: Array) -> tuple[Indices, Array]:
