@@ -76,10 +76,35 @@ def test_known_wrong_cases_are_held_to_float64(studio: Studio) -> None:
     assert parity.run_case(studio, "wrong", case, "vertex").ok
 
 
-@pytest.mark.parametrize("name", ["glu_curve_rational_circle", "glu_trim_redbook"])
-def test_what_the_renderer_drew_is_refused_in_words(studio: Studio, name: str) -> None:
+DRAWN = [
+    ("glu_drawn_trim", "verts", "pos", 40, 2),
+    ("glu_drawn_trim", "verts", "normal", 41, 0),
+    ("glu_drawn_curve", "lines", "pos", 5, 1),
+    ("glu_drawn_curve", "lines", "color", 6, 0),
+    ("glu_drawn_curve", "lines", "tex", 7, 3),
+]
+
+
+@pytest.mark.parametrize(("name", "what", "field", "vertex", "column"), DRAWN)
+def test_an_altered_vertex_of_what_libglu_drew_fails(
+    studio: Studio, name: str, what: str, field: str, vertex: int, column: int
+) -> None:
     case = deepcopy(CASES[name])
-    case["inputs"]["mode"], case["outputs"] = "renderer", {"verts": {"pos": []}, "errors": []}
-    row = parity.run_case(studio, name, case, "vertex")
-    assert not row.ok
-    assert row.complaint.startswith("expected a case of the tessellator, found mode 'renderer'")
+    case["outputs"][what][field][vertex][column] += 1e-4
+    assert not parity.run_case(studio, name, case, "vertex").ok
+
+
+def test_a_missing_triangle_and_segment_of_what_libglu_drew_fail(studio: Studio) -> None:
+    for name, what, corners in (("glu_drawn_trim", "verts", 30), ("glu_drawn_curve", "lines", 2)):
+        case = deepcopy(CASES[name])
+        for values in case["outputs"][what].values():
+            del values[:corners]
+        assert not parity.run_case(studio, name, case, "vertex").ok
+
+
+def test_properties_that_libglu_takes_unchecked_may_be_refused(studio: Studio) -> None:
+    case = deepcopy(CASES["glu_surface_domain_distance"])
+    case["inputs"]["props"]["SAMPLING_TOLERANCE"] = 0.0
+    assert parity.run_case(studio, "zero", case, "vertex").ok
+    case["inputs"]["props"]["SAMPLING_METHOD"] = 7
+    assert "[100901]" in parity.run_case(studio, "seven", case, "vertex").complaint

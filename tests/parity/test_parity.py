@@ -51,6 +51,8 @@ def test_an_altered_number_fails(
 def test_missing_vertices_and_unknown_kinds_fail(studio: Studio) -> None:
     case = deepcopy(CASES["map2_mesh_fill"])
     case["outputs"]["pos"] = case["outputs"]["pos"][:-3]
+    assert "of one length" in parity.run_case(studio, "uneven", case, "vertex").complaint
+    case["outputs"] = {field: values[:117] for field, values in case["outputs"].items()}
     assert "primitives" in parity.run_case(studio, "short", case, "vertex").complaint
     case = deepcopy(CASES["map1_order5"])
     case["outputs"]["pos"] = []
@@ -58,6 +60,15 @@ def test_missing_vertices_and_unknown_kinds_fail(studio: Studio) -> None:
     assert "kind" in parity.run_case(studio, "odd", {"kind": "odd"}, "vertex").complaint
     del case["inputs"]["maps"]["VERTEX_3"]["stride"]
     assert "stride" in parity.run_case(studio, "broken", case, "vertex").complaint
+
+
+def test_where_one_makes_nothing_so_does_the_other(studio: Studio) -> None:
+    case = deepcopy(CASES["map2_mesh_reversed_range"])
+    case["inputs"]["rng"] = [0, 1, 0, 1]
+    assert "found some" in parity.run_case(studio, "some", case, "vertex").complaint
+    case = deepcopy(CASES["map2_mesh_fill"])
+    del case["inputs"]["maps"]["VERTEX_3"]
+    assert "found none" in parity.run_case(studio, "none", case, "vertex").complaint
 
 
 def test_the_command_counts_and_exits(

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 import real_glu
-from nurbs_cases import areas, covers, theirs_of
+from nurbs_outputs import areas, theirs_of
+from trimmed_cases import covers
 
 from reparam.geometry.net import Array
 from reparam.geometry.trimming import trim_region
