@@ -75,6 +75,7 @@ VARIANTS: list[tuple[tuple[str, ...], dict[str, Any]]] = [
     (("evaluate.vert",), degree_defines(**{"": (1, 31)}) | {"NORMALS": 1}),
     (("stroke.vert", "stroke.frag"), {}),
     (("flatten.vert",), {}),
+    (("group.vert",), {}),
     (("parametric.vert",), {"FORMULA_X(u, w)": "sine(u)", "FORMULA_Y(u, w)": "arctangent(w)"}),
     (("trace.vert",), degree_defines(**{"": (3, 0)})),
     (("trace.vert",), degree_defines(**{"": (9, 0)})),

@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 from reparam.geometry.camera import Camera
 from reparam.geometry.curve import circular_arc, curve_net, curve_points
 from reparam.gpu import curve_parts
-from reparam.gpu.polylines import curve_links, joined
-from reparam.gpu.strokes import Screen, Strokes
+from reparam.gpu.pen import Lines, Pen, Screen
+from reparam.gpu.polylines import curve_links, joined, segments
+from reparam.gpu.strokes import Strokes
 from reparam.gpu.targets import Target
 from reparam.scenes.layers import Curves, Dots, Polylines, Stroked
 from reparam.snapshot import Studio
@@ -25,7 +26,9 @@ SIDE, POINTS = 96, 16
 BLACK = (0.0, 0.0, 0.0)
 
 
-def coverage(studio: Studio, *layers: Stroked, samples: int = 4, tolerance: float = 0.0) -> Array:
+def coverage(
+    studio: Studio, *layers: Stroked, samples: int = 4, tolerance: float = 0.0, deep: bool = False
+) -> Array:
     """How much of each pixel black layers cover, bottom row first; model units are pixels."""
     studio.ctx.__enter__()  # current, should there be another
     target = Target(studio.ctx, (SIDE, SIDE), samples, studio.painter.capabilities)
@@ -33,7 +36,7 @@ def coverage(studio: Studio, *layers: Stroked, samples: int = 4, tolerance: floa
     target.framebuffer.use()
     studio.ctx.viewport = (0, 0, SIDE, SIDE)
     target.framebuffer.clear(1.0, 1.0, 1.0, 1.0, depth=1.0)
-    studio.ctx.enable_only(moderngl.BLEND)
+    studio.ctx.enable_only(moderngl.BLEND | (moderngl.DEPTH_TEST if deep else 0))
     studio.ctx.blend_func = (moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA)
     for layer in layers:
         studio.painter.strokes.draw(layer, camera, 1.0, tolerance)
@@ -108,10 +111,13 @@ def test_sharp_turns(studio: Studio, closed: bool, samples: int) -> None:
 
 
 def test_a_line_longer_than_the_window_closes(studio: Studio) -> None:
-    angle = np.linspace(0.0, 2.0 * pi, 701)[:-1]
-    points = np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], -1) * 37.7 + [48.2, 47.9, 0.0]
-    found = coverage(studio, Polylines(points, BLACK, 2.5, closed=True))
-    compare(found, true_coverage(np.concatenate([points, points[:1]])[None], 1.25))
+    """A cog wheel, whose teeth are drawn each by itself."""
+    angle = np.linspace(0.0, 2.0 * pi, 601)[:-1]
+    points = np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], -1)
+    points[::2] *= 0.8
+    points = points * 37.7 + [48.2, 47.9, 0.0]
+    found = coverage(studio, Polylines(points, BLACK, 0.6, closed=True))
+    compare(found, true_coverage(np.concatenate([points, points[:1]])[None], 0.3))
 
 
 def test_a_line_that_is_all_within_its_own_window_closes(studio: Studio) -> None:
@@ -119,6 +125,71 @@ def test_a_line_that_is_all_within_its_own_window_closes(studio: Studio) -> None
     points = np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], -1) * 2.7 + [48.2, 47.9, 0.0]
     found = coverage(studio, Polylines(points, BLACK, 2.5, closed=True))
     compare(found, true_coverage(np.concatenate([points, points[:1]])[None], 1.25))
+
+
+def test_more_turns_than_a_window_has_segments(studio: Studio) -> None:
+    """A line that comes back after 1000 segments is drawn once where it lies on itself."""
+    angle = np.linspace(0.0, 14.0 * pi, 7001)
+    points = np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], -1) * 5.3 + [48.2, 47.9, 0.0]
+    found = coverage(studio, Polylines(points, BLACK, 2.5))
+    compare(found, true_coverage(points[None, :1001], 1.25))
+
+
+def group_sizes(studio: Studio, points: list[tuple[float, float, float]]) -> list[int]:
+    """How many segments of a line are drawn together."""
+    pen = Pen(studio.ctx, studio.painter.programs)
+    at, links = joined(np.array(points))
+    lines = Lines.linked(studio.ctx, studio.ctx.buffer(at.astype(np.float32).tobytes()), links)
+    camera = Camera(np.eye(3), np.array([SIDE / 2, SIDE / 2, 0.0]), SIDE / 2, SIDE / 2, 100.0)
+    with studio.ctx.scope(studio.painter.nowhere):
+        pen._flatten(lines, Screen(camera, (0, 0, SIDE, SIDE), 1.0)).use(0)
+        grouped = pen._group(lines, 1.0)
+    texels = np.frombuffer(grouped.groups.read(), np.float32).reshape(-1, 4)
+    circles = texels[: 2 * len(points) : 2]
+    assert np.abs(circles[:, 3]).sum() == (circles[circles[:, 3] > 0, 3] ** 2).sum()
+    return [int(count) for count in circles[:, 3] if count > 0]
+
+
+def test_groups(studio: Studio) -> None:
+    """Short segments are drawn together where they go on straight, in space too."""
+    x = np.arange(67) * 0.2 + 10.0
+    assert group_sizes(studio, [(a, 20.0, 0.0) for a in x]) == [32, 32, 2]
+    assert group_sizes(studio, [(50.0 * a - 490.0, 20.0, 0.0) for a in x[:7]]) == [4, 2]
+    assert group_sizes(studio, [(40.0 * k, 90.0 * (k % 2), 0.0) for k in range(5)]) == [1, 1, 1, 1]
+    assert group_sizes(studio, [(a, 20.0, 20.0 * (k % 2)) for k, a in enumerate(x[:5])]) == [
+        1,
+        1,
+        1,
+        1,
+    ]
+    assert group_sizes(studio, [(30.0, 20.0, 0.0)] * 2) == [1]
+
+
+def test_a_hook_on_the_way(studio: Studio) -> None:
+    """A group whose cap reaches further than where its line goes on."""
+    hook = [[0, 0], [3, 0], [3, 1], [3, 2], [2, 2]]
+    tail = [[10, 10], [14, 6], [20, 12], [14, 18]]
+    points = np.array([[2.3 * x + 10.0, 2.3 * y + 10.0, 0.0] for x, y in hook + tail])
+    found = coverage(studio, Polylines(points, BLACK, 8.0))
+    compare(found, true_coverage(points[None], 4.0))
+
+
+def test_arcs_that_touch_where_their_chords_do_not(studio: Studio) -> None:
+    """Two groups of 8 segments, ) and (, with 8 of the way from one to the other between them."""
+    t = np.linspace(-1.0, 1.0, 9)[:, None]
+    arc = np.concatenate([1.5 * (1.0 - t**2), 7.0 * t, 0.0 * t], -1)
+    other = arc * [-1.0, 1.0, 1.0] + [3.7, 0.0, 0.0]
+    way = [[0, 20], [20, 30], [40, 30], [40, 0], [40, -30], [20, -40], [4, -30]]
+    points = np.concatenate([arc, np.pad(np.array(way, float), ((0, 0), (0, 1))), other])
+    points += np.array([40.0, 45.0, 0.0])
+    found = coverage(studio, Polylines(points, BLACK, 0.7))
+    compare(found, true_coverage(points[None], 0.35))
+
+
+def test_what_a_line_does_not_cover_it_does_not_hide(studio: Studio) -> None:
+    near, far = ([[x, 10, z], [x, 80, z]] for x, z in ((20, 1.0), (22, 0.0)))
+    both = np.array([near, far], float)
+    compare(coverage(studio, Polylines(both, BLACK, 2.0), deep=True), true_coverage(both, 1.0))
 
 
 def test_dots(studio: Studio) -> None:
@@ -138,8 +209,11 @@ def test_several_lines_do_not_join(studio: Studio) -> None:
 def test_links() -> None:
     _, links = joined(np.zeros((2, 3, 3)))
     assert links.tolist() == [0, 1, 1, 0, 1, 1]
+    assert segments(links)[:, :3].tolist() == [[1, 2, 0]] * 3 + [[4, 5, 0]] * 3
+    assert segments(links)[:, 3].tolist() == [0, 1, 2, 3, 4, 5]
     points, links = joined(np.arange(9.0).reshape(3, 3), closed=True)
     assert links.tolist() == [-3, 1, 1, 4]
+    assert segments(links)[:, :3].tolist() == [[1, 3, 1]] * 4
     assert points[0].tolist() == points[-1].tolist()
     chain = curve_net([[[0, 0], [1, 0]], [[1, 0], [1, 1]], [[5, 5], [6, 6]]])
     assert curve_links(chain, 3).tolist() == [0, 1, 1, 1, 1, 1, 0, 1, 1]

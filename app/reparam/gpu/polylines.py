@@ -73,6 +73,15 @@ def curve_links(net: Array, samples: int) -> Array:
     return links.ravel()
 
 
+def segments(links: Array) -> NDArray[np.int32]:
+    """Of the segment that ends at each point (k, 4): its line's first and last segment, 1 if that
+    leads to the first, and itself; a point where a line begins stands before its first."""
+    first = np.flatnonzero(links < 0.5)
+    lines = np.stack([first + 1, np.append(first[1:], len(links)) - 1, links[first] < -0.5], -1)
+    lines = np.repeat(lines, np.diff(np.append(first, len(links))), 0)
+    return np.column_stack([lines, np.arange(len(links))]).astype(np.int32)
+
+
 @lru_cache(maxsize=256)
 def line_parameters(
     u: Values, v: Values, span: tuple[float, float], segments: int

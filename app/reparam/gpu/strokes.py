@@ -1,14 +1,12 @@
-"""Thick lines, dots and arrow heads, as wide as asked at any size (stroke.*, marker.*).
+"""Thick lines, dots and arrow heads, as wide as asked at any size.
 
-A line goes its way in three steps, each kept for as long as it stays true: points in the model,
-evaluated or uploaded; points on the pixels (flatten.vert), for each view; which segments may share
-pixels (reach.vert), for each view and width. Then it is drawn (stroke.*).
+What each layer is made of: lines, whose points are evaluated or uploaded and kept until they
+change; a pen draws them (gpu/pen.py).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable
-from dataclasses import dataclass
 
 import moderngl
 import numpy as np
@@ -30,7 +28,7 @@ from ..scenes.layers import (
 from .curve_parts import CurveParts
 from .evaluation import Evaluation, patch_count
 from .kept import Kept
-from .nets import NET_WIDTH
+from .pen import DEPTH_BIAS, FLATNESS, Lines, Pen, Screen, clip_bytes
 from .polylines import (
     arrow_parameters,
     curve_links,
@@ -43,44 +41,8 @@ from .programs import Programs
 
 Array = NDArray[np.float64]
 
-DEPTH_BIAS = 2e-3  # lines that lie on a surface come before it
 HANDLE_RINGS = ((1.5, (0.13, 0.13, 0.13)), (0.8, (1.0, 1.0, 1.0)))  # seen on any ground
 ARROW_SIZE = 4.5  # figure units from the middle of the head to its tip
-TEXEL = 16  # bytes of a point
-FLATNESS = 1.0 / 80.0  # pixels between a curve and its segments where no tolerance is asked for
-
-
-@dataclass(frozen=True)
-class Lines:
-    """Points and links of polylines on the GPU, as gpu/polylines.py has them."""
-
-    points: moderngl.Buffer
-    links: moderngl.Buffer
-    count: int
-
-    def release(self) -> None:
-        """Give the memory back."""
-        self.points.release()
-        self.links.release()
-
-
-@dataclass(frozen=True)
-class Screen:
-    """A camera, the viewport (left, bottom, width, height), the pixels of a figure unit, and those
-    that a curve's segments may be off."""
-
-    camera: Camera
-    region: tuple[int, int, int, int]
-    unit: float
-    tolerance: float = FLATNESS
-
-    def key(self) -> Hashable:
-        """What the points on the pixels depend on."""
-        return self.camera.clip_from_model().tobytes(), self.region
-
-    def fineness(self) -> tuple[Camera, float, float]:
-        """The camera, pixels of a unit of its view plane, and the tolerance."""
-        return self.camera, self.region[2] / (2.0 * self.camera.half_width), self.tolerance
 
 
 class Strokes:
@@ -91,24 +53,20 @@ class Strokes:
         self._programs = programs
         self._evaluation = evaluation
         self._lines: Kept[Lines] = Kept(lambda lines: lines.release())
-        self._flat: Kept[moderngl.Texture] = Kept(lambda texture: texture.release())
-        self._reach: Kept[moderngl.Buffer] = Kept(lambda buffer: buffer.release())
         self._parts = CurveParts()
-        self._rectangle = ctx.buffer(np.array([0, -1, 0, 1, 1, -1, 1, 1], np.float32).tobytes())
+        self._pen = Pen(ctx, programs)
         self._square = ctx.buffer(np.array([-1, -1, -1, 1, 1, -1, 1, 1], np.float32).tobytes())
 
     def sweep(self) -> None:
         """End of a frame."""
         self._lines.sweep()
-        self._flat.sweep()
-        self._reach.sweep()
         self._parts.sweep()
+        self._pen.sweep()
 
     def forget(self) -> None:
         """Drop what older shaders evaluated."""
         self._lines.clear()
-        self._flat.clear()
-        self._reach.clear()
+        self._pen.forget()
 
     def draw(
         self, layer: Stroked | ControlNet, camera: Camera, unit: float, tolerance: float = 0.0
@@ -143,9 +101,7 @@ class Strokes:
         camera, unit, color, width = look
 
         def lines() -> Lines:
-            points, links = make()
-            buffer = self._ctx.buffer(links.astype(np.float32).tobytes())
-            return Lines(points, buffer, len(links))
+            return Lines.linked(self._ctx, *make())
 
         self._stroke(*key, lines, Screen(camera, self._ctx.viewport, unit), color, width)
 
@@ -242,8 +198,8 @@ class Strokes:
 
     def _linked(self, points: moderngl.Buffer, count: int, times: int) -> Lines:
         """Evaluated points as one line, or, each given twice, as dots."""
-        links = np.tile([0.0, 1.0], count) if times == 2 else np.arange(count) > 0
-        return Lines(points, self._ctx.buffer(links.astype(np.float32).tobytes()), len(links))
+        links = np.tile([0.0, 1.0], count) if times == 2 else np.minimum(np.arange(count), 1.0)
+        return Lines.linked(self._ctx, points, links)
 
     def _draw_control_net(self, layer: ControlNet, screen: Screen) -> None:
         """Lines along the legs, dots at the control points."""
@@ -263,14 +219,11 @@ class Strokes:
 
     def _evaluate(self, nets: Array, parameters: Array, links: Array) -> Lines:
         points = self._evaluation.run(nets, parameters, range(patch_count(nets)))
-        return Lines(points, self._ctx.buffer(links.astype(np.float32).tobytes()), len(links))
+        return Lines.linked(self._ctx, points, links)
 
     def _upload(self, points: Array, links: Array) -> Lines:
-        return Lines(
-            self._ctx.buffer(points.astype(np.float32).tobytes()),
-            self._ctx.buffer(links.astype(np.float32).tobytes()),
-            len(links),
-        )
+        buffer = self._ctx.buffer(points.astype(np.float32).tobytes())
+        return Lines.linked(self._ctx, buffer, links)
 
     def _stroke(
         self,
@@ -282,56 +235,8 @@ class Strokes:
         width: float,
     ) -> None:
         """The lines that `make` makes of the array, as wide as `width` figure units."""
-        half_width = width * screen.unit / 2.0
         lines = self._lines.get(array, key, make)
-        flat_key = (key, screen.key())
-        flat = self._flat.get(array, flat_key, lambda: self._flatten(lines, screen))
-        flat.use(0)
-        reach = self._reach.get(
-            array, (flat_key, half_width), lambda: self._reaches(lines, half_width)
-        )
-        program = self._programs.get("stroke.vert", "stroke.frag")
-        program.set(
-            line=0,
-            line_points=lines.count,
-            region=screen.region,
-            half_width=half_width,
-            depth_bias=DEPTH_BIAS,
-            color=(*color, 1.0),
-        )
-        vertices = self._ctx.vertex_array(
-            program.ready(), [(self._rectangle, "2f", "corner"), (reach, "2f /i", "reach")]
-        )
-        vertices.render(moderngl.TRIANGLE_STRIP, vertices=4, instances=lines.count)
-        vertices.release()
-
-    def _flatten(self, lines: Lines, screen: Screen) -> moderngl.Texture:
-        """The points on the pixels, as a texture."""
-        program = self._programs.get("flatten.vert", varyings=("place",))
-        program.set(clip_from_model=clip_bytes(screen.camera), region=screen.region)
-        width = min(lines.count, NET_WIDTH)
-        height = -(-lines.count // width)
-        captured = self._ctx.buffer(reserve=width * height * TEXEL)
-        vertices = self._ctx.vertex_array(
-            program.ready(), [(lines.points, "4f", "point"), (lines.links, "1f", "link")]
-        )
-        vertices.transform(captured, moderngl.POINTS, lines.count)
-        vertices.release()
-        texture = self._ctx.texture((width, height), 4, dtype="f4")
-        texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
-        texture.write(captured)
-        captured.release()
-        return texture
-
-    def _reaches(self, lines: Lines, half_width: float) -> moderngl.Buffer:
-        """How far each segment must look; the flattened lines are bound."""
-        program = self._programs.get("reach.vert", varyings=("reach",))
-        program.set(line=0, line_points=lines.count, half_width=half_width)
-        captured = self._ctx.buffer(reserve=lines.count * 8)
-        vertices = self._ctx.vertex_array(program.ready(), [(lines.links, "1f", "link")])
-        vertices.transform(captured, moderngl.POINTS, lines.count)
-        vertices.release()
-        return captured
+        self._pen.draw((array, key), lines, screen, (*color, 1.0), width * screen.unit / 2.0)
 
     def _draw_arrows(
         self,
@@ -357,8 +262,3 @@ class Strokes:
         vertices.render(moderngl.TRIANGLE_STRIP, vertices=4, instances=len(at))
         vertices.release()
         marks.release()
-
-
-def clip_bytes(camera: Camera) -> bytes:
-    """The matrix as OpenGL takes it."""
-    return camera.clip_from_model().T.astype(np.float32).tobytes()
