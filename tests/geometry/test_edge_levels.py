@@ -37,12 +37,24 @@ def test_zero_has_one_sign() -> None:
 
 def test_edges_of_other_orders_in_u_and_v_stay_apart() -> None:
     numbers = edge_numbers(np.zeros((3, 2, 3, 4)))
-    assert numbers.tolist() == [[0, 1, 0, 1]] * 3
+    assert (numbers[:, [0, 2, 0]] == numbers[0, 0]).all()
+    assert (numbers[:, [1, 3, 1]] == numbers[0, 1]).all()
+    assert numbers[0, 0] != numbers[0, 1]
+
+
+@pytest.mark.parametrize("unit", [1.0, 0.5**20, 1e-5])
+def test_no_two_of_many_curves_have_one_number(unit: float) -> None:
+    """Not those of whole numbers either, of whose bits most are 0."""
+    ends = np.stack(np.divmod(np.arange(25.0), 5.0), -1) - 2.0
+    first, last = np.divmod(np.arange(25 * 25), 25)
+    nets = np.ones((25 * 25, 2, 2, 4))
+    nets[:, 0, 0, :2], nets[:, 0, 1, :2] = ends[first] * unit, ends[last] * unit
+    assert len(np.unique(edge_numbers(nets)[:, 0])) == 25 * 26 // 2
 
 
 def test_an_edge_takes_the_finest_of_both_sides() -> None:
     levels = np.array([[4, 9], [7, 5], [0, 0]])
-    numbers = np.array([[0, 1, 2, 3], [2, 4, 5, 6], [7, 8, 9, 7]], np.int32)
+    numbers = np.array([[0, 1, 2, 3], [2, 4, 5, 6], [7, 8, 9, 7]])
     expected = [[9, 4, 9, 4], [9, 7, 5, 7], [1, 1, 1, 1]]
     assert edge_levels(levels, numbers).tolist() == expected
 
@@ -70,7 +82,7 @@ def test_no_triangle_at_an_edge_spans_more_than_its_step(steps: int) -> None:
 
 def test_tiles_have_as_many_steps_inside_and_on_edges() -> None:
     levels = np.array([[130, 20], [70, 64], [3, 300]])
-    numbers = np.array([[0, 1, 2, 3], [2, 4, 5, 6], [7, 3, 8, 9]], np.int32)
+    numbers = np.array([[0, 1, 2, 3], [2, 4, 5, 6], [7, 3, 8, 9]])
     edges = edge_levels(levels, numbers)
     inner, outer, tiles = in_tiles(grid_levels(levels, edges), edges, numbers, 64)
     assert tiles.tolist() == [[4, 1], [2, 1], [4, 8]]

@@ -14,12 +14,14 @@ from test_cracks import counter, counts
 from truth import random_nets
 
 from reparam.geometry.camera import Camera, View, frame
+from reparam.geometry.edge_levels import edge_marks
 from reparam.geometry.evaluate import project, sample_surface
 from reparam.geometry.meshes import MESHES
 from reparam.geometry.net import Array, control_net, raise_degree
 from reparam.geometry.planar_maps import R
 from reparam.geometry.surface_spline import surface_spline
 from reparam.geometry.torus import two_halves
+from reparam.gpu import adaptive
 from reparam.gpu.accuracy import Drawn, deviations
 from reparam.gpu.adaptive import Plan, Tolerance, tiled, uniform_plan
 from reparam.gpu.painter import Painter
@@ -213,6 +215,33 @@ def turned_outwards(octants: Array) -> Array:
     """A reflected octant is turned over: u and v change places."""
     signs = np.sign(octants[:, 1, 1, :3]).prod(-1)
     return np.where(signs[:, None, None, None] > 0, octants, octants.swapaxes(1, 2))
+
+
+def test_an_edit_looks_at_the_edges_it_changed(
+    studio: Studio, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    painter, tolerance = studio.painter, Tolerance(0.5, SIZE)
+    nets = random_nets(np.random.default_rng(5), (3, 3), False, 50)
+    nets[1::2, 0] = nets[::2, -1]
+    camera = views(nets, 1)[0]
+    painter.surfaces.adaptive.plan(Patches(nets), camera, "vertex", tolerance)
+    looked = []
+
+    def marks(patches: Array) -> np.ndarray:
+        looked.append(len(patches))
+        return edge_marks(patches)
+
+    monkeypatch.setattr(adaptive, "edge_marks", marks)
+    edited = nets.copy()
+    edited[[8, 21], 1:3] += 0.05
+    edited[21, 0] += 0.05
+    for _ in range(2):
+        painter.surfaces.sweep()
+        plan = painter.surfaces.adaptive.plan(Patches(edited), camera, "vertex", tolerance)
+    assert sum(looked) < 20
+    monkeypatch.undo()
+    anew = Studio().painter.surfaces.adaptive.plan(Patches(edited), camera, "vertex", tolerance)
+    assert (plan.edges == anew.edges).all()
 
 
 @pytest.mark.parametrize("evaluator", EVALUATORS)

@@ -5,32 +5,49 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .net import Array
+from .net import MAX_ORDER, Array
 
 
-def edge_numbers(nets: Array) -> NDArray[np.int32]:
+def edge_numbers(nets: Array) -> NDArray[np.int64]:
     """A number for each edge of the patches (P, m, n, 4), the same for the same curve: (P, 4).
 
     The edges u = 0, v = 0, u = 1, v = 1; a curve is the same read backwards too.
     """
-    nets = nets + 0.0  # -0 is 0
-    numbers = np.empty((len(nets), 4), np.int32)
-    count = 0
-    edges = [nets[:, 0], nets[:, :, 0], nets[:, -1], nets[:, :, -1]]
-    groups = [(0, 1, 2, 3)] if nets.shape[1] == nets.shape[2] else [(0, 2), (1, 3)]
-    for group in groups:
-        curves = np.stack([edges[k] for k in group], 1).reshape(len(nets) * len(group), -1)
-        backwards = curves.reshape(len(curves), -1, nets.shape[-1])[:, ::-1].reshape(curves.shape)
-        first = np.take_along_axis(curves - backwards, (curves != backwards).argmax(1)[:, None], 1)
-        canonical = np.ascontiguousarray(np.where(first <= 0.0, curves, backwards))
-        rows = canonical.view(np.dtype((np.void, canonical.dtype.itemsize * canonical.shape[1])))
-        _, found = np.unique(rows.ravel(), return_inverse=True)
-        numbers[:, group] = count + found.reshape(len(nets), len(group))
-        count += int(found.max()) + 1
-    return numbers
+    return numbered(edge_marks(nets))
 
 
-def edge_levels(levels: NDArray[np.int64], numbers: NDArray[np.int32]) -> NDArray[np.int64]:
+def edge_marks(nets: Array) -> NDArray[np.uint64]:
+    """A mark for each edge, the same for the same curve: (P, 4). It tells of one patch what
+    `edge_numbers` tells of many. Two other curves have one mark once in 2^64; then they are but
+    drawn as finely as each other.
+    """
+    bits = (nets + 0.0).view(np.uint64)  # -0 is 0
+    points = sum(_scattered(bits[..., k] + SALTS[k]) * SALTS[k] for k in range(nets.shape[-1]))
+    edges = [points[:, 0], points[:, :, 0], points[:, -1], points[:, :, -1]]
+    return np.stack([np.minimum(_in_order(e), _in_order(e[:, ::-1])) for e in edges], -1)
+
+
+def numbered(marks: NDArray[np.uint64]) -> NDArray[np.int64]:
+    """0, 1, ... for marks (P, 4), the same for the same."""
+    return np.asarray(np.unique(marks, return_inverse=True)[1].reshape(marks.shape), np.int64)
+
+
+# Odd numbers, of which a sum tells the order: multiples of 2^64 over the golden ratio.
+SALTS = np.arange(1, MAX_ORDER + 1, dtype=np.uint64) * np.uint64(0x9E3779B97F4A7C15) | np.uint64(1)
+
+
+def _scattered(bits: NDArray[np.uint64]) -> NDArray[np.uint64]:
+    """Close numbers, and such with many zeros, far apart (the finish of MurmurHash3)."""
+    for shift, factor in ((33, 0xFF51AFD7ED558CCD), (33, 0xC4CEB9FE1A85EC53)):
+        bits = (bits ^ (bits >> np.uint64(shift))) * np.uint64(factor)
+    return bits ^ (bits >> np.uint64(33))
+
+
+def _in_order(points: NDArray[np.uint64]) -> NDArray[np.uint64]:
+    return np.asarray(_scattered(points) @ SALTS[: points.shape[1]])
+
+
+def edge_levels(levels: NDArray[np.int64], numbers: NDArray[np.int64]) -> NDArray[np.int64]:
     """The level of each edge (P, 4): the most that a patch along it asks for in levels (P, 2).
 
     An edge as fine as the finest patch beside it keeps the bound in the triangles along it, and
@@ -68,7 +85,7 @@ def snapped(index: NDArray[np.int64], steps: int, edge_steps: int) -> NDArray[np
 
 
 def in_tiles(
-    levels: NDArray[np.int64], edges: NDArray[np.int64], numbers: NDArray[np.int32], most: int
+    levels: NDArray[np.int64], edges: NDArray[np.int64], numbers: NDArray[np.int64], most: int
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
     """The same and finer, and how many tiles (P, 2), a power of two, each patch is cut into so
     that none has more than `most` steps: all of a patch have as many, and as many of its edges.

@@ -52,10 +52,11 @@ def stitched(steps: Ints, edges: Ints) -> Stitched:
     times = np.diff(np.append(first, len(order)))
     sizes, vertices = _repeated(np.array([len(places) for places, _ in pieces]), times)
     counts, corners = _repeated(np.array([len(triangles) for _, triangles in pieces]), times)
-    places = np.concatenate([places for places, _ in pieces])[vertices]
-    triangles = np.concatenate([triangles for _, triangles in pieces])[corners]
+    places = np.concatenate([places for places, _ in pieces]).take(vertices, 0)
+    triangles = np.concatenate([triangles for _, triangles in pieces]).take(corners, 0)
     before = (np.cumsum(sizes) - sizes).astype(np.int32)
-    return Stitched(order.repeat(sizes), places, triangles + before.repeat(counts)[:, None])
+    triangles += before.repeat(counts)[:, None]
+    return Stitched(order.repeat(sizes), places, triangles)
 
 
 def _kinds(rows: Ints) -> tuple[Ints, list[list[int]], Ints]:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.camera import Camera
-from ..geometry.edge_levels import edge_levels, edge_numbers, grid_levels, in_tiles
+from ..geometry.edge_levels import edge_levels, edge_marks, grid_levels, in_tiles, numbered
 from ..geometry.levels import FINEST, box_corners, out_of_view
 from ..geometry.net import Array
 from ..scenes.layers import Patches
@@ -88,7 +88,8 @@ class Adaptive:
         self._evaluation = evaluation
         self._fineness = Fineness(ctx, programs, evaluation)
         self._software = capabilities.software
-        self._edges: Kept[tuple[list[Array], NDArray[np.int32]]] = Kept(lambda _: None)
+        self._edges: Kept[tuple[list[Array], NDArray[np.int64]]] = Kept(lambda _: None)
+        self._own_edges: Kept[NDArray[np.uint64]] = Kept(lambda _: None)
         self._boxes: Kept[Array] = Kept(lambda _: None)
         self._plans: Kept[tuple[Body, list[Plan]]] = Kept(lambda _: None, frames=1)
         self._stitches = Stitches(ctx)
@@ -96,6 +97,7 @@ class Adaptive:
     def sweep(self) -> None:
         """End of a frame."""
         self._edges.sweep()
+        self._own_edges.sweep()
         self._boxes.sweep()
         self._plans.sweep()
         self._stitches.sweep()
@@ -141,13 +143,23 @@ class Adaptive:
         box = self._boxes.get(layer.net, None, lambda: box_corners(layer.net))
         return bool(out_of_view(box @ camera.clip_from_model().T).all())
 
-    def _numbers(self, nets: list[Array]) -> NDArray[np.int32]:
+    def _numbers(self, nets: list[Array]) -> NDArray[np.int64]:
         """Of the edges of all nets, which are kept with them."""
 
-        def make() -> tuple[list[Array], NDArray[np.int32]]:
-            return nets, edge_numbers(np.concatenate([n.reshape(-1, *n.shape[-3:]) for n in nets]))
+        def make() -> tuple[list[Array], NDArray[np.int64]]:
+            return nets, numbered(np.concatenate([self._marks(net) for net in nets]))
 
         return self._edges.get(nets[0], tuple(map(id, nets)), make)[1]
+
+    def _marks(self, net: Array) -> NDArray[np.uint64]:
+        """Of the edges of a net: kept, and after an edit those of the patches that it changed."""
+        patches = net if net.ndim == 4 else net[None]
+
+        def renew(marks: NDArray[np.uint64], changed: list[range]) -> None:
+            for run in changed:
+                marks[run.start : run.stop] = edge_marks(patches[run.start : run.stop])
+
+        return self._own_edges.get(net, net.shape, lambda: edge_marks(patches), renew)
 
     def draw(
         self,
