@@ -1,5 +1,6 @@
 // How finely each patch is to be tessellated in this view: one vertex a patch, captured by transform
-// feedback.  OpenGL 3.3.  (0, 0) for a patch out of view, or with SOLID one that faces away.
+// feedback.  OpenGL 3.3.  Steps in u and v, and 1 where diagonals are to fall; steps (0, 0) for a patch
+// out of view, or with SOLID one that faces away.
 
 #include "lib/levels.glsl"
 #ifdef SOLID
@@ -19,7 +20,7 @@ uniform ivec2 texture_degree;
 uniform int texture_stride;   // 0: one map shared by all patches
 #endif
 
-out vec2 steps;
+out vec3 steps;
 
 void main() {
     Bends seen = bends(position_net, patch_index, position_degree, clip_from_model, half_size);
@@ -35,5 +36,5 @@ void main() {
 #ifdef SOLID
     hidden = hidden || faces_away(position_net, patch_index, position_degree, clip_from_model);
 #endif
-    steps = hidden ? vec2(0.0) : fewest_steps(seen, tolerance, sought, unit);
+    steps = hidden ? vec3(0.0) : fewest_steps(seen, tolerance, sought, unit);
 }

@@ -15,10 +15,10 @@ const float NEVER = 1e30;
 struct Bends {           // the largest lengths, in pixels; over w
     float uu, uv, vv;    // |A|, |B|, |C|
     vec3 slopes;         // three t = y/x, and there
-    vec3 from_u;         // |A +- t B|
-    vec3 from_v;         // |B +- t C|
-    vec3 edge;           // |A +- 2 t B + t^2 C|
-    vec2 between;        // |A +- (s + t) B + s t C|, s and t being neighbours
+    vec3 from_u[2];      // |A +- t B|
+    vec3 from_v[2];      // |B +- t C|
+    vec3 edge[2];        // |A +- 2 t B + t^2 C|
+    vec2 between[2];     // |A +- (s + t) B + s t C|, s and t being neighbours
     vec3 spread;         // what is to be added for uu, uv, vv
     vec3 weight;         // |w_uu|, |w_uv|, |w_vv|
     vec2 growth;         // |w_u|, |w_v|
@@ -30,7 +30,8 @@ struct Bends {           // the largest lengths, in pixels; over w
 };
 
 Bends flat_bends() {
-    return Bends(0.0, 0.0, 0.0, vec3(0.5, 1.0, 2.0), vec3(0.0), vec3(0.0), vec3(0.0), vec2(0.0),
+    vec3 none[2] = vec3[2](vec3(0.0), vec3(0.0));
+    return Bends(0.0, 0.0, 0.0, vec3(0.5, 1.0, 2.0), none, none, none, vec2[2](vec2(0.0), vec2(0.0)),
                  vec3(0.0), vec3(0.0), vec2(0.0), vec2(0.0), 1.0, 0.0, vec2(0.0), false);
 }
 
@@ -80,10 +81,6 @@ vec3 relative(vec4 derivative, vec4 at, bool own) {
 
 float largest(vec3 bent, vec2 reach) {
     return length(abs(bent.xy) + reach * abs(bent.z));
-}
-
-float either(vec3 a, vec3 b, vec2 reach) {
-    return max(largest(a + b, reach), largest(a - b, reach));
 }
 
 // Of edges (1, t) of triangles that bend as much along u as along v.
@@ -155,16 +152,21 @@ Bends bends(sampler2D net, int patch_index, ivec2 degree, mat4 transform, vec2 s
             s.uv = max(s.uv, largest(b, reach));
             least_turn = min(least_turn, vec3(a.z, b.z, c.z));
             most_turn = max(most_turn, vec3(a.z, b.z, c.z));
-            for (int k = 0; k < 3; ++k) {
-                float t = s.slopes[k];
-                s.from_u[k] = max(s.from_u[k], either(a, t * b, reach));
-                s.from_v[k] = max(s.from_v[k], either(b, t * c, reach));
-                s.edge[k] = max(s.edge[k], either(a + t * t * c, 2.0 * t * b, reach));
-                if (k < 2) {
-                    float next = s.slopes[k + 1];
-                    s.between[k] =
-                        max(s.between[k], either(a + t * next * c, (t + next) * b, reach));
+            for (int way = 0; way < 2; ++way) {
+                for (int k = 0; k < 3; ++k) {
+                    float t = s.slopes[k];
+                    s.from_u[way][k] = max(s.from_u[way][k], largest(a + t * b, reach));
+                    s.from_v[way][k] = max(s.from_v[way][k], largest(b + t * c, reach));
+                    s.edge[way][k] =
+                        max(s.edge[way][k], largest(a + 2.0 * t * b + t * t * c, reach));
+                    if (k < 2) {
+                        float next = s.slopes[k + 1];
+                        s.between[way][k] = max(
+                            s.between[way][k],
+                            largest(a + (t + next) * b + t * next * c, reach));
+                    }
                 }
+                b = -b;
             }
         }
     s.weight = max(most_turn, -least_turn);

@@ -71,7 +71,7 @@ def edges(t: float) -> list[tuple[float, float]]:
 
 
 def bound(s: Bends, t: float) -> float:
-    return float(edge_bend(s, np.array(t)) + s.spread @ [1.0, 2.0 * t, t * t]) * (1.0 + 1e-9)
+    return float(edge_bend(s, np.array(t)).max() + s.spread @ [1.0, 2.0 * t, t * t]) * (1.0 + 1e-9)
 
 
 @pytest.mark.parametrize("perspective", [False, True])

@@ -9,6 +9,7 @@ from reparam.geometry.edge_levels import (
     STEPS,
     edge_levels,
     edge_numbers,
+    fitted,
     grid_levels,
     in_tiles,
     snapped,
@@ -57,6 +58,18 @@ def test_an_edge_takes_the_finest_of_both_sides() -> None:
     numbers = np.array([[0, 1, 2, 3], [2, 4, 5, 6], [7, 8, 9, 7]])
     expected = [[9, 4, 9, 4], [9, 7, 5, 7], [1, 1, 1, 1]]
     assert edge_levels(levels, numbers).tolist() == expected
+
+
+def test_an_edge_fits_the_steps_of_both_sides() -> None:
+    """4 and 5 steps meet at 8: n go back by (n - gcd(n, e)) / (n e), no more than half a step."""
+    levels = np.array([[4, 4], [4, 5], [3, 100], [3, 101]])
+    numbers = np.array([[0, 1, 2, 3], [2, 4, 5, 6], [7, 8, 9, 10], [9, 11, 12, 13]])
+    edges = edge_levels(levels, numbers)
+    assert edges[:, [0, 2]].tolist() == [[4, 5], [5, 5], [100, 101], [101, 101]]
+    found = fitted(levels, edges, numbers)
+    assert found[0, 2] == found[1, 0] == 8
+    assert found[2, 2] == found[3, 0] == 200 or found[3, 0] % 101 == 0
+    assert (found[:, [0, 1, 3]] >= edges[:, [0, 1, 3]]).all()
 
 
 def test_grids_have_as_many_steps_as_their_edges() -> None:

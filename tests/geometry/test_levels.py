@@ -9,10 +9,12 @@ import pytest
 
 from reparam.geometry.bends import bends
 from reparam.geometry.camera import View, frame
-from reparam.geometry.edge_levels import snapped
+from reparam.geometry.edge_levels import fitted, snapped
 from reparam.geometry.evaluate import evaluate, sample_surface
 from reparam.geometry.levels import (
     FINEST,
+    LEAST_BASE,
+    fewest_one_way,
     fewest_steps,
     isosceles,
     out_of_view,
@@ -21,6 +23,7 @@ from reparam.geometry.levels import (
 )
 from reparam.geometry.net import Array, control_net, raise_degree
 from reparam.geometry.planar_maps import R
+from reparam.geometry.stitching import stitched_patch
 
 SCALE = (256.0, 200.0)
 TOLERANCE = 0.5
@@ -93,6 +96,39 @@ def test_no_triangle_is_off_by_more(rational: bool, perspective: bool) -> None:
             ratios.append(worst(net, cells[areas(cells) > 1e-12]) / 4.0)
     assert max(ratios) <= 1.0
     assert max(ratios) > 0.4  # and it is not idle either
+
+
+@pytest.mark.parametrize("rational", [False, True])
+def test_no_triangle_cut_one_way_is_off_by_more(rational: bool) -> None:
+    """Whatever the steps of its edges are, as long as they are finer and fit."""
+    random, ratios, ways = np.random.default_rng(3), [], set()
+    for turn in range(24):
+        net = random_net(random, rational)
+        steps, falling = fewest_one_way(bends(net, SCALE), 4.0)
+        ways.add(bool(falling))
+        more = random.integers(0, 4, 4) * (turn % 3)
+        edges = fitted(steps[None], (steps[[1, 0, 1, 0]] + more)[None], np.arange(4)[None])[0]
+        places, corners = stitched_patch(*steps.tolist(), *edges.tolist(), int(falling))
+        of = places.astype(np.float64)
+        at = np.stack([of[:, 0] / of[:, 1], of[:, 2] / of[:, 3]], -1)
+        ratios.append(worst(net, at[corners]) / 4.0)
+    assert len(ways) == 2
+    assert max(ratios) <= 1.0
+    assert max(ratios) > 0.4
+
+
+def test_a_triangle_between_two_edges_has_no_more_than_one_with_a_base() -> None:
+    """P(2d), P(2d') and (1 - min(d, d'))^2 make no larger sum than two sides of 1 and the base."""
+    one, other = np.meshgrid(np.linspace(0.0, 1.0, 41), np.linspace(0.0, 1.0, 41))
+    share = np.array([(x, y, 40 - x - y) for x in range(41) for y in range(41 - x)]) / 40.0
+    for base in (LEAST_BASE, 0.5, 0.8, 1.0):
+        first, second = (base + (1.0 - (1.0 - k) ** 2) * (1.0 - base) for k in (one, other))
+        third = (1.0 - np.minimum(one, other) / 2.0) ** 2
+        sums = sum(
+            np.multiply.outer(share[:, i] * share[:, (i + 1) % 3], m)
+            for i, m in enumerate((first, second, third))
+        )
+        assert sums.max() <= isosceles(np.array(base), np.array(1.0)) * (1.0 + 1e-3)
 
 
 def test_a_parabola_gets_what_it_needs() -> None:

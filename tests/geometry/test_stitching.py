@@ -6,18 +6,25 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from reparam.geometry.edge_levels import fitted
 from reparam.geometry.net import Array
 from reparam.geometry.stitching import stitched, stitched_patch
 
-KINDS = [(3, 3, 3, 3, 3, 3), (1, 1, 4, 2, 3, 9), (7, 1, 1, 11, 1, 10), (40, 30, 30, 41, 77, 60)]
+KINDS = [
+    [3, 3, 3, 3, 3, 3, 0],
+    [1, 1, 4, 2, 3, 9, 1],
+    [7, 1, 1, 11, 1, 10, 0],
+    [40, 30, 30, 41, 77, 60, 1],
+]
 
 
 def kinds(count: int) -> list[list[int]]:
-    """Steps in u and v, and of the edges."""
+    """Steps in u and v, those of the edges, and whether diagonals fall."""
     random = np.random.default_rng(1)
     steps = random.integers(1, 8, (count, 2))
     more = random.integers(0, 6, (count, 4)) * (random.random((count, 4)) < 0.5)
-    return np.column_stack([steps, steps[:, [1, 0, 1, 0]] + more]).tolist()
+    falling = random.integers(0, 2, count)
+    return np.column_stack([steps, steps[:, [1, 0, 1, 0]] + more, falling]).tolist()
 
 
 def parameters(places: NDArray[np.uint16]) -> Array:
@@ -29,7 +36,7 @@ def parameters(places: NDArray[np.uint16]) -> Array:
 @pytest.mark.parametrize("kind", [*KINDS, *kinds(40)])
 def test_triangles_of_a_patch(kind: list[int]) -> None:
     """They cover the square once, meet side by side, and none reaches further than a cell."""
-    nu, nv, *edges = kind
+    nu, nv, *edges, _ = kind
     places, triangles = stitched_patch(*kind)
     at = parameters(places)
     assert len(np.unique(at, axis=0)) == len(at)
@@ -50,9 +57,26 @@ def test_triangles_of_a_patch(kind: list[int]) -> None:
         np.testing.assert_allclose(np.sort(low[:, 0]) * steps, np.arange(steps), atol=1e-9)
 
 
+def test_no_side_goes_back_by_more_than_half_a_step() -> None:
+    rows = np.array(kinds(400))
+    steps, edges, falling = rows[:, :2], rows[:, 2:6], rows[:, 6]
+    edges = fitted(steps, edges, np.arange(edges.size).reshape(edges.shape))
+    assert (edges >= rows[:, 2:6]).all()
+    assert edges.sum() < 1.1 * rows[:, 2:6].sum()
+    back = []
+    for kind in np.column_stack([steps, edges, falling]).tolist():
+        places, triangles = stitched_patch(*kind)
+        at = parameters(places) * kind[:2]
+        sides = np.roll(at[triangles], -1, axis=1) - at[triangles]
+        sides[..., 0] *= -1.0 if kind[6] else 1.0
+        away = np.abs(sides[sides.prod(-1) < -1e-9])
+        back.append(away.min(-1).max(initial=0.0))
+    assert max(back) == pytest.approx(0.5)
+
+
 def test_many_patches_are_each_as_alone() -> None:
     rows = np.array([*kinds(50), *kinds(9)])
-    found = stitched(rows[:, :2], rows[:, 2:])
+    found = stitched(rows[:, :2], rows[:, 2:6], rows[:, 6] > 0)
     assert sorted(set(found.rows.tolist())) == list(range(59))
     owner = found.rows[found.triangles]
     assert (owner == owner[:, :1]).all()

@@ -276,7 +276,7 @@ def test_many_vertices_in_one_draw(studio: Studio) -> None:
 
 def test_only_patches_above_the_hardware_s_level_are_tiled() -> None:
     levels, tiles = np.array([[4, 64], [152, 66]]), np.array([[1, 1], [4, 2]])
-    rows = tiled(Plan(np.array([3, 8]), levels, np.ones((2, 4), int), tiles))
+    rows = tiled(Plan(np.array([3, 8]), levels, np.ones((2, 4), int), tiles, np.zeros(2, bool)))
     assert rows[:, 0].tolist() == [3] + 8 * [8]
     assert rows[0, 7:].tolist() == [0, 0, 4, 64]
     covered = np.zeros((152, 66), int)

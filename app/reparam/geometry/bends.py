@@ -41,17 +41,17 @@ class Bends:
 
     With A, B, C those of uu, uv, vv: |A|, |B|, |C|; at three slopes t |A +- t B|, |B +- t C| and
     |A +- 2 t B + t^2 C|; and of neighbouring slopes |A +- (s + t) B + s t C|: as quadratics in t,
-    Bezier form bounds them in between.
+    Bezier form bounds them in between. First those of edges that rise, then of such that fall.
     """
 
     uu: Array
     uv: Array
     vv: Array
     slopes: Array  # (..., 3)
-    from_u: Array  # (..., 3)
-    from_v: Array  # (..., 3)
-    edge: Array  # (..., 3)
-    between: Array  # (..., 2)
+    from_u: Array  # (..., 2, 3)
+    from_v: Array  # (..., 2, 3)
+    edge: Array  # (..., 2, 3)
+    between: Array  # (..., 2, 2)
     spread: Array  # (..., 3): what covariance adds to uu, uv, vv
     weight: Array  # (..., 3): the largest |w_uu|, |w_uv|, |w_vv| over w
     growth: Array  # (..., 2): the largest |w_u|, |w_v| over w
@@ -101,9 +101,9 @@ def largest(bent: Array, reach: Array) -> Array:
     return np.asarray(np.hypot(along[..., 0], along[..., 1]).max((-2, -1)))
 
 
-def either(a: Array, b: Array, reach: Array) -> Array:
-    """Of a + b and a - b."""
-    return np.maximum(largest(a + b, reach), largest(a - b, reach))
+def both(a: Array, b: Array, reach: Array) -> Array:
+    """Of a + b and of a - b, (..., 2)."""
+    return np.stack([largest(a + b, reach), largest(a - b, reach)], -1)
 
 
 def bends(nets: Array, scale: tuple[float, float]) -> Bends:
@@ -141,12 +141,12 @@ def bends(nets: Array, scale: tuple[float, float]) -> Bends:
     speed += extent[..., None] / 2.0 * growth
     return Bends(
         uu, uv, vv, slopes,
-        np.stack([either(a, t[k] * b, reach) for k in range(3)], -1),
-        np.stack([either(b, t[k] * c, reach) for k in range(3)], -1),
-        np.stack([either(a + t[k] ** 2 * c, 2.0 * t[k] * b, reach) for k in range(3)], -1),
+        np.stack([both(a, t[k] * b, reach) for k in range(3)], -1),
+        np.stack([both(b, t[k] * c, reach) for k in range(3)], -1),
+        np.stack([both(a + t[k] ** 2 * c, 2.0 * t[k] * b, reach) for k in range(3)], -1),
         np.stack(
             [
-                either(a + t[k] * t[k + 1] * c, (t[k] + t[k + 1]) * b, reach) for k in range(2)
+                both(a + t[k] * t[k + 1] * c, (t[k] + t[k + 1]) * b, reach) for k in range(2)
             ],
             -1,
         ),

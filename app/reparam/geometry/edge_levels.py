@@ -60,6 +60,34 @@ def edge_levels(levels: NDArray[np.int64], numbers: NDArray[np.int64]) -> NDArra
     return np.maximum(finest[numbers], 1)
 
 
+def fitted(
+    levels: NDArray[np.int64], edges: NDArray[np.int64], numbers: NDArray[np.int64]
+) -> NDArray[np.int64]:
+    """The same and finer levels of edges (P, 4), so that in triangles of stitching.py, of grids of
+    levels (P, 2), no side goes back by more than half a step of the grid.
+
+    From n steps to e of the edge a side goes back by up to (n - gcd(n, e)) / (n e).
+    """
+    wanted = levels[:, [1, 0, 1, 0]]
+    while True:
+        strips, own = edges[:, [2, 3, 0, 1]], wanted.copy()
+        in_v = levels[:, 0] == 1
+        in_u = ~in_v & (levels[:, 1] == 1)
+        own[in_v, ::2] = np.minimum(edges, strips)[in_v, ::2]
+        own[in_u, 1::2] = np.minimum(edges, strips)[in_u, 1::2]
+        short = 2 * wanted * (own - np.gcd(own, edges)) > own * edges
+        if not short.any():
+            return edges
+        next_multiple = -(-edges // own) * own
+        finer = np.where(short, np.where(own > MANY, next_multiple, edges + 1), edges)
+        finest = np.zeros(int(numbers.max()) + 1, np.int64)
+        np.maximum.at(finest, numbers.ravel(), finer.ravel())
+        edges = finest[numbers]
+
+
+MANY = 64  # steps, above which a few more on an edge are sought no longer
+
+
 def grid_levels(levels: NDArray[np.int64], edges: NDArray[np.int64]) -> NDArray[np.int64]:
     """The same and finer: levels (P, 2) of grids that can snap to edges (P, 4) of their own.
 

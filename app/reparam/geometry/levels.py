@@ -12,7 +12,17 @@ f differs from its linear interpolant at p by
 f_uv and f_vv raised to one degree, whose control points bound it: where they pull apart, as on a
 saddle, they are not added up. (Adding them up is the bound of D. Filip, R. Magedson, R. Markot,
 CAGD 3, 1986: here a third more triangles, and more where it hurts most.) It holds for all triangles
-whose edges go no further than a step each way: stitching.py makes such ones where levels change.
+whose edges go no further than a step each way: tessellators make such ones, and lib/snap.glsl where
+levels change. Of those edges that rise and those that fall, the ones may bend much less than the
+others. Then it pays to cut all cells that way, as stitching.py does; at edges of other levels it
+goes back by half a step at most.
+
+With m_ij for the largest |f''[e_ij, e_ij]|, a triangle is off by half the largest sum l_i l_j m_ij,
+for a base along u or v and two other sides. In two corners of a patch stitching.py may have one
+without such a base, from (0, d) by (1, 0) to (1 - d', 1) in steps, d and d' at most 1/2. With S the
+most of any side, Bezier form leaves P(2 d), P(2 d') and (1 - min(d, d'))^2 S for its sides, where
+P(k) = base + (1 - (1 - k)^2) (S - base). That makes no larger a sum than sides S, S and the base if
+the base is LEAST_BASE S or more, as it is taken to be.
 
 Clip coordinates of a rational patch, under any camera, are polynomial in (u,v), and so are those
 drawn in a triangle, X and W where the patch has x and w. With q = x/w at p, which is off by
@@ -54,6 +64,7 @@ SHORT = 4096.0  # steps that tell what a slope needs in the limit
 REFINED = 3  # times; what is estimated at too few steps is too many, and the other way round
 GROWTHS = 160  # that lead from 1 to FINEST
 TRIES = 6  # steps are made fewer so many times, one at a time
+LEAST_BASE = 0.35  # of a side
 
 
 def isosceles(base: Array, side: Array) -> Array:
@@ -63,10 +74,29 @@ def isosceles(base: Array, side: Array) -> Array:
 
 
 def edge_bend(s: Bends, t: Array) -> Array:
-    """The largest |f''[e, e]| of edges e = (x, y), |x| <= 1 and |y| <= t (...,)."""
-    low, high = s.slopes[..., 0], s.slopes[..., 2]
-    upper = t > s.slopes[..., 1]
-    first, last = (np.where(upper, s.slopes[..., k + 1], s.slopes[..., k]) for k in (0, 1))
+    """The largest |f''[e, e]| of edges e = (x, y), |x| <= 1 and |y| <= t (...,): of those that rise
+    and of those that fall, (..., 2)."""
+    uu, vv, from_u, from_v, edge = _around(s, t)
+    found = np.maximum(np.maximum(from_u, from_v), edge)
+    return np.maximum(found, np.maximum(uu, vv))
+
+
+def back_bend(s: Bends, t: Array) -> Array:
+    """The same of edges half as long in one of both directions."""
+    uu, vv, from_u, from_v, edge = _around(s, t)
+    flat = np.maximum(_line(uu, from_u, 0.5), _parabola(uu, from_u, edge, 0.5))
+    steep = np.maximum(_line(vv, from_v, 0.5), _parabola(vv, from_v, edge, 0.5))
+    return np.maximum(np.maximum(flat, steep), np.maximum(uu, vv))
+
+
+def _around(s: Bends, t: Array) -> tuple[Array, ...]:
+    """Bezier form of what bends along (1, y), y from 0 to t, and along (x, t), x from 0 to 1: both
+    first points, both middle ones, and the last of both, each (..., 2) or (..., 1)."""
+    t, uu, uv, vv = (values[..., None] for values in (t, s.uu, s.uv, s.vv))
+    slopes = s.slopes[..., None, :]
+    low, high = slopes[..., 0], slopes[..., 2]
+    upper = t > slopes[..., 1]
+    first, last = (np.where(upper, slopes[..., k + 1], slopes[..., k]) for k in (0, 1))
 
     def pick(values: Array, k: int) -> Array:
         return np.where(upper, values[..., k + 1], values[..., k])
@@ -78,48 +108,70 @@ def edge_bend(s: Bends, t: Array) -> Array:
     edge = _parabola(pick(s.edge, 0), middle, pick(s.edge, 1), share)
 
     share = np.minimum(t / low, 1.0)
-    flat_u = _line(s.uu, s.from_u[..., 0], share)
-    flat_v = t * _line(s.uv, s.from_v[..., 0], share)
-    flat = _parabola(s.uu, s.from_u[..., 0], s.edge[..., 0], share)
+    flat_u = _line(uu, s.from_u[..., 0], share)
+    flat_v = t * _line(uv, s.from_v[..., 0], share)
+    flat = _parabola(uu, s.from_u[..., 0], s.edge[..., 0], share)
 
     share = np.minimum(high / t, 1.0)
-    steep_u = t * _line(s.uv, s.from_u[..., 2] / high, share)
-    steep_v = t**2 * _line(s.vv, s.from_v[..., 2] / high, share)
-    steep = t**2 * _parabola(s.vv, s.from_v[..., 2] / high, s.edge[..., 2] / high**2, share)
+    steep_u = t * _line(uv, s.from_u[..., 2] / high, share)
+    steep_v = t**2 * _line(vv, s.from_v[..., 2] / high, share)
+    steep = t**2 * _parabola(vv, s.from_v[..., 2] / high, s.edge[..., 2] / high**2, share)
 
-    found = np.maximum(np.maximum(from_u, from_v), edge)
-    found = np.where(t < low, np.maximum(np.maximum(flat_u, flat_v), flat), found)
-    found = np.where(t > high, np.maximum(np.maximum(steep_u, steep_v), steep), found)
-    return np.maximum(found, np.maximum(s.uu, t**2 * s.vv))
+    def where(flat: Array, between: Array, steep: Array) -> Array:
+        return np.where(t < low, flat, np.where(t > high, steep, between))
+
+    return (
+        uu,
+        t**2 * vv,
+        where(flat_u, from_u, steep_u),
+        where(flat_v, from_v, steep_v),
+        where(flat, edge, steep),
+    )
 
 
-def _line(a: Array, b: Array, t: Array) -> Array:
+def _line(a: Array, b: Array, t: Array | float) -> Array:
     return a + (b - a) * t
 
 
-def _parabola(a: Array, b: Array, c: Array, t: Array) -> Array:
+def _parabola(a: Array, b: Array, c: Array, t: Array | float) -> Array:
     return _line(_line(a, b, t), _line(b, c, t), t)
 
 
-def share_used(s: Bends, steps: Array, tolerance: float, scale: ArrayLike = 1.0) -> Array:
-    """How much of the tolerance (in pixels) `steps` (..., 2) in u and v use up; 1 is all.
+def shares_used(
+    s: Bends, steps: Array, tolerance: float, scale: ArrayLike = 1.0, one_way: bool = False
+) -> Array:
+    """How much of the tolerance (in pixels) `steps` (..., 2) in u and v use up; 1 is all: (..., 1),
+    or with `one_way` (..., 2).
 
-    Lengths are `scale` (...,) times as many pixels as `s` has. Infinite where a weight is not
-    positive. The shares of a position and of its map add up.
+    The one is for triangles whose edges may rise and fall. The two are for those of stitching.py
+    from cells cut along diagonals that rise, and from such cut along diagonals that fall. Lengths
+    are `scale` (...,) times as many pixels as `s` has. Infinite where a weight is not positive. The
+    shares of a position and of its map add up.
     """
     h = 1.0 / np.asarray(steps, np.float64)
     squares = np.stack([h[..., 0] ** 2, 2.0 * h[..., 0] * h[..., 1], h[..., 1] ** 2], -1) / 8.0
     t = h[..., 1] / h[..., 0]
-    base = np.maximum(s.uu, t**2 * s.vv)
-    bend = isosceles(base, edge_bend(s, t)) / 2.0 * h[..., 0] ** 2 + (s.spread * squares).sum(-1)
+    base, side = np.maximum(s.uu, t**2 * s.vv)[..., None], edge_bend(s, t)
+    if one_way:
+        side = np.maximum(side, back_bend(s, t)[..., ::-1])
+        base = np.maximum(base, LEAST_BASE * side)
+    else:
+        side = side.max(-1, keepdims=True)
+    bend = isosceles(base, side) / 2.0 * h[..., :1] ** 2 + (s.spread * squares).sum(-1)[..., None]
     weight, growth = (s.weight * squares).sum(-1), (s.growth * h).sum(-1)
     clear = np.maximum(1.0 - growth, TINY)
     ratio = np.minimum(1.0 / clear, s.ratio)
     moved = np.minimum((s.speed * h).sum(-1) / 3.0, s.extent)
     with np.errstate(invalid="ignore"):
         uneven = np.minimum(ratio, 1.0 + (ratio * growth / 6.0) ** 2 + ratio * weight * 4.0 / 3.0)
-        off = bend * uneven + ratio * weight * moved
-    return np.asarray(np.where(np.isfinite(s.ratio), scale * off / tolerance, np.inf))
+        off = bend * uneven[..., None] + (ratio * weight * moved)[..., None]
+    used = np.asarray(scale)[..., None] * off / tolerance
+    return np.asarray(np.where(np.isfinite(s.ratio)[..., None], used, np.inf))
+
+
+def share_used(s: Bends, steps: Array, tolerance: float, scale: ArrayLike = 1.0) -> Array:
+    """The same of any triangles whose edges go no further than a step each way: (...,)."""
+    return np.asarray(shares_used(s, steps, tolerance, scale)[..., 0])
 
 
 def pixels_a_unit(clip: Array, maps: Array, half: tuple[float, float]) -> Array:
@@ -152,12 +204,27 @@ def fewest_steps(
     down, one at a time or one for the other, as long as they do. What is smaller than the
     tolerance needs one step.
     """
+    return _fewest(seen, tolerance, sought, unit, False)[0]
+
+
+def fewest_one_way(
+    seen: Bends, tolerance: float, sought: Bends | None = None, unit: Array | None = None
+) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+    """The same for cells all cut along diagonals that rise or, where (...,) says so, that fall."""
+    return _fewest(seen, tolerance, sought, unit, True)
+
+
+def _fewest(
+    seen: Bends, tolerance: float, sought: Bends | None, unit: Array | None, one_way: bool
+) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+    def shares(steps: Array) -> Array:
+        found = shares_used(seen, steps, tolerance, one_way=one_way)
+        if sought is None or unit is None:
+            return found
+        return np.asarray(found + shares_used(sought, steps, tolerance, unit, one_way))
 
     def used(steps: Array) -> Array:
-        share = share_used(seen, steps, tolerance)
-        if sought is None or unit is None:
-            return share
-        return np.asarray(share + share_used(sought, steps, tolerance, unit))
+        return np.asarray(shares(steps).min(-1))
 
     def enough(steps: Array) -> Array:
         return np.asarray(np.maximum(steps * np.minimum(used(steps) ** 0.5, 1e9)[..., None], 1.0))
@@ -191,7 +258,9 @@ def fewest_steps(
             fewer = (trial.prod(-1) < steps.prod(-1)) & (used(trial) <= 1.0)
             steps = np.where(fewer[..., None], trial, steps)
     tiny = (seen.extent <= tolerance) & np.isfinite(seen.ratio)
-    return np.asarray(np.where(tiny[..., None], 1.0, steps).astype(np.int64))
+    steps = np.where(tiny[..., None], 1.0, steps)
+    ways = shares(steps)
+    return steps.astype(np.int64), np.asarray(ways[..., -1] < ways[..., 0])
 
 
 def out_of_view(clip: Array) -> NDArray[np.bool_]:

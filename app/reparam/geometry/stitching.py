@@ -1,7 +1,8 @@
 """Triangles of patches that have steps of their own inside, and on each edge those asked for there.
 
-A grid of cells, cut along rising diagonals. Where an edge has more steps than the grid, the grid's
-vertices on it move to steps of the edge, and each triangle there opens into a fan:
+A grid of cells, cut along rising diagonals, or mirrored along falling ones. Where an edge has more
+steps than the grid, the grid's vertices on it move to steps of the edge, and each triangle there
+opens into a fan:
 
     +-----+-----+-----+
     |   / |   / |   / |     3 steps inside; the lower edge has 4, and the grid's
@@ -12,9 +13,9 @@ vertices on it move to steps of the edge, and each triangle there opens into a f
     +---+--+---+---+--+
 
 Vertices move right on the lower edge and down on the right one, as on the others after half a turn:
-so no side of a triangle goes further than a step of the grid each way, and what goes backwards goes
-less than a step of the edge. A triangle with two sides on edges, in the corners lower right and
-upper left, opens from the last step of one edge to all steps of the other.
+so no side of a triangle goes further than a step of the grid each way, and none goes backwards by
+more than `fitted` in edge_levels.py allows. A triangle with two sides on edges, in the lower right
+and the upper left corner, opens from the last step of one edge to all steps of the other.
 """
 
 from __future__ import annotations
@@ -44,10 +45,11 @@ class Stitched:
     triangles: Triangles
 
 
-def stitched(steps: Ints, edges: Ints) -> Stitched:
+def stitched(steps: Ints, edges: Ints, falling: NDArray[np.bool_]) -> Stitched:
     """All triangles of patches with steps (P, 2) in u and v, and as many or more on their edges
-    u = 0, v = 0, u = 1, v = 1 (P, 4). Patches of a kind follow one another."""
-    order, kinds, first = _kinds(np.concatenate([steps, edges], 1))
+    u = 0, v = 0, u = 1, v = 1 (P, 4); diagonals rise, or fall (P,). Patches of a kind follow one
+    another."""
+    order, kinds, first = _kinds(np.column_stack([steps, edges, falling]))
     pieces = [_few(*kind) if kind[0] * kind[1] <= FEW else stitched_patch(*kind) for kind in kinds]
     times = np.diff(np.append(first, len(order)))
     sizes, vertices = _repeated(np.array([len(places) for places, _ in pieces]), times)
@@ -60,9 +62,9 @@ def stitched(steps: Ints, edges: Ints) -> Stitched:
 
 
 def _kinds(rows: Ints) -> tuple[Ints, list[list[int]], Ints]:
-    """How to sort rows (P, 6), those that differ, and where each of them begins."""
-    scale = (int(rows.max()) + 1) ** np.arange(3)
-    one, other = rows[:, :3] @ scale, rows[:, 3:] @ scale
+    """How to sort rows (P, 7), those that differ, and where each of them begins."""
+    scale = (int(rows.max()) + 1) ** np.arange(4)
+    one, other = rows[:, :3] @ scale[:3], rows[:, 3:] @ scale
     order = np.lexsort([other, one])
     one, other = one[order], other[order]
     first = np.flatnonzero(np.append(True, (np.diff(one) != 0) | (np.diff(other) != 0)))
@@ -77,13 +79,17 @@ def _repeated(sizes: Ints, times: Ints) -> tuple[Ints, Ints]:
 
 
 def stitched_patch(
-    nu: int, nv: int, left: int, bottom: int, right: int, top: int
+    nu: int, nv: int, left: int, bottom: int, right: int, top: int, falling: int = 0
 ) -> tuple[Places, Triangles]:
     """The vertices' places (V, 4) and triangles (T, 3), counter-clockwise in (u, v), of one patch.
 
     The vertices inside come first, then the rim, once around. Where there are none, steps along
     the patch are free: then vertices move on one edge alone, not on both against each other.
     """
+    if falling:
+        places, triangles = stitched_patch(nu, nv, right, bottom, left, top)
+        places[:, 0] = places[:, 1] - places[:, 0]
+        return places, triangles[:, ::-1]
     if nu == 1:
         nv = min(left, right)
     elif nv == 1:
@@ -108,7 +114,7 @@ def stitched_patch(
     at_right[at_right == grid[-2, 0]] = on_bottom[-2]
     at_left = grid[1, np.arange(left) * nv // left + 1]
     at_left[at_left == grid[1, -1]] = on_top[1]
-    triangles = [
+    corners = [
         (a[:-1, 1:], b[:-1, 1:], c[:-1, 1:]),
         (a[1:, :-1], c[1:, :-1], d[1:, :-1]),
         (at_bottom, on_bottom[:-2], on_bottom[1:-1]),
@@ -117,15 +123,15 @@ def stitched_patch(
         (at_left, on_left[1:], on_left[:-1]),
     ]
     inside = np.repeat(i[1:-1], nv - 1), nu, np.tile(j[1:-1], nu - 1), nv
-    places = [
+    vertices = [
         _rows(inside, inner),
         _rows((np.arange(bottom), bottom, 0, 1), bottom),
         _rows((1, 1, np.arange(right), right), right),
         _rows((np.arange(top, 0, -1), top, 1, 1), top),
         _rows((0, 1, np.arange(left, 0, -1), left), left),
     ]
-    corners = [_rows(each, each[0].size, np.int32) for each in triangles]
-    return np.concatenate(places), np.concatenate(corners)
+    sides = [_rows(each, each[0].size, np.int32) for each in corners]
+    return np.concatenate(vertices), np.concatenate(sides)
 
 
 _few = lru_cache(maxsize=KINDS)(stitched_patch)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..geometry.camera import Camera
-from ..geometry.edge_levels import edge_levels, edge_marks, grid_levels, in_tiles, numbered
+from ..geometry.edge_levels import edge_levels, edge_marks, fitted, grid_levels, in_tiles, numbered
 from ..geometry.levels import FINEST, box_corners, out_of_view
 from ..geometry.net import Array
 from ..scenes.layers import Patches
@@ -48,17 +48,18 @@ class Plan:
     tiles (k, 2) each is drawn.
 
     An edge has as many steps as the patch along it or, for tessellation, fewer; or, for the vertex
-    evaluator, more.
+    evaluator, more. That one cuts cells along diagonals that rise, or fall where it says so (k,).
     """
 
     patches: Ints
     inner: Ints
     edges: Ints
     tiles: Ints
+    falling: NDArray[np.bool_]
 
     def take(self, index: Ints) -> Plan:
         """Some of the patches."""
-        return Plan(self.patches[index], self.inner[index], self.edges[index], self.tiles[index])
+        return Plan(**{name: column[index] for name, column in vars(self).items()})
 
     def triangles(self) -> int:
         """How many they make, those counted that have no area."""
@@ -70,7 +71,7 @@ def uniform_plan(layer: Patches, level: int) -> Plan:
     """One level for all patches and edges."""
     count = patch_count(layer.net)
     levels, tiles = np.full((count, 2), level), np.full((count, 2), -(-level // HARDWARE_LEVEL))
-    return Plan(np.arange(count), levels, levels[:, [1, 0, 1, 0]], tiles)
+    return Plan(np.arange(count), levels, levels[:, [1, 0, 1, 0]], tiles, np.zeros(count, bool))
 
 
 class Adaptive:
@@ -114,29 +115,36 @@ class Adaptive:
         return next(p for each, p in zip(body, plans, strict=True) if each is layer)
 
     def _plan(self, body: Body, camera: Camera, evaluator: str, tolerance: Tolerance) -> list[Plan]:
-        viewport, pixels = tolerance.viewport, tolerance.pixels
-        asked = [
-            np.zeros((patch_count(layer.net), 2), np.int64)
-            if self._out_of_view(layer, camera)
-            else self._fineness.read(layer, camera, viewport, pixels)
-            for layer in body
-        ]
-        steps, owner = np.concatenate(asked), np.repeat(np.arange(len(body)), list(map(len, asked)))
+        one_way = evaluator == "vertex"
+        asked = [self._asked(layer, camera, tolerance, one_way) for layer in body]
+        steps, falling = (np.concatenate(parts) for parts in zip(*asked, strict=True))
+        sizes = [len(own) for own, _ in asked]
+        owner = np.repeat(np.arange(len(body)), sizes)
         seen = np.flatnonzero(steps.any(-1))
         numbers = self._numbers([layer.net for layer in body])[seen]
-        steps = np.minimum(steps[seen], FINEST_GRID if evaluator == "vertex" else FINEST)
-        edges = edge_levels(steps, numbers)
-        if evaluator == "vertex":
-            inner, tiles = steps, np.ones_like(steps)
+        inner = np.minimum(steps[seen], FINEST_GRID if one_way else FINEST)
+        edges, tiles = edge_levels(inner, numbers), np.ones_like(inner)
+        if one_way:
+            edges = fitted(inner, edges, numbers)
         else:
-            inner = grid_levels(steps, edges)
+            inner = grid_levels(inner, edges)
             inner, edges, tiles = in_tiles(inner, edges, numbers, HARDWARE_LEVEL)
+        whole = Plan(seen, inner, edges, tiles, falling[seen])
         plans, before = [], 0
-        for k, own in enumerate(asked):
-            here = owner[seen] == k
-            plans.append(Plan(seen[here] - before, inner[here], edges[here], tiles[here]))
-            before += len(own)
+        for k, size in enumerate(sizes):
+            plan = whole.take(np.flatnonzero(owner[seen] == k))
+            plans.append(replace(plan, patches=plan.patches - before))
+            before += size
         return plans
+
+    def _asked(
+        self, layer: Patches, camera: Camera, tolerance: Tolerance, one_way: bool
+    ) -> tuple[Ints, NDArray[np.bool_]]:
+        """What the patches of a layer ask for: steps, and whether diagonals are to fall."""
+        if self._out_of_view(layer, camera):
+            count = patch_count(layer.net)
+            return np.zeros((count, 2), np.int64), np.zeros(count, bool)
+        return self._fineness.read(layer, camera, tolerance.viewport, tolerance.pixels, one_way)
 
     def _out_of_view(self, layer: Patches, camera: Camera) -> bool:
         """Whether all of a layer is: then no patch of it need be looked at."""

@@ -24,16 +24,22 @@ class Fineness:
         self._evaluation = evaluation
 
     def run(
-        self, layer: Patches, camera: Camera, viewport: tuple[int, int], tolerance: float
+        self,
+        layer: Patches,
+        camera: Camera,
+        viewport: tuple[int, int],
+        tolerance: float,
+        one_way: bool,
     ) -> moderngl.Buffer:
-        """Steps in u and v of each patch, float32 (patches, 2); (0, 0) for one out of view, or one
-        of a solid body that faces away."""
+        """Steps in u and v of each patch and whether its diagonals are to fall, float32 (patches,
+        3); steps (0, 0) for one out of view, or one of a solid body that faces away."""
         # By its own position a map is off as much as the point is: the picture stays in place. What
         # fragments look up by themselves is not off at all.
         texture = layer.texture
         sought = layer.net if texture is None or texture.exact else texture.net
         textured = sought is not layer.net
-        defines = ({"TEXTURED": 1} if textured else {}) | ({"SOLID": 1} if layer.solid else {})
+        wanted = {"TEXTURED": textured, "SOLID": layer.solid, "ONE_WAY": one_way}
+        defines = {name: 1 for name, on in wanted.items() if on}
         program = self._programs.get("levels.vert", defines=defines, varyings=("steps",))
         self._evaluation.texture(layer.net).use(NET_UNIT)
         program.set(
@@ -53,17 +59,23 @@ class Fineness:
         count = patch_count(layer.net)
         numbers = self._ctx.buffer(np.arange(count, dtype=np.int32).tobytes())
         vertices = self._ctx.vertex_array(program.ready(), [(numbers, "1i", "patch_index")])
-        captured = self._ctx.buffer(reserve=8 * count)
+        captured = self._ctx.buffer(reserve=12 * count)
         vertices.transform(captured, moderngl.POINTS, count)
         vertices.release()
         numbers.release()
         return captured
 
     def read(
-        self, layer: Patches, camera: Camera, viewport: tuple[int, int], tolerance: float
-    ) -> NDArray[np.int64]:
-        """The same handed back: (patches, 2)."""
-        captured = self.run(layer, camera, viewport, tolerance)
-        steps = np.frombuffer(captured.read(), np.float32).reshape(-1, 2)
+        self,
+        layer: Patches,
+        camera: Camera,
+        viewport: tuple[int, int],
+        tolerance: float,
+        one_way: bool = False,
+    ) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
+        """The same handed back: (patches, 2) and (patches,). `one_way` is for cells that are all
+        cut along diagonals that rise, or all along such that fall."""
+        captured = self.run(layer, camera, viewport, tolerance, one_way)
+        found = np.frombuffer(captured.read(), np.float32).reshape(-1, 3)
         captured.release()
-        return steps.astype(np.int64)
+        return found[:, :2].astype(np.int64), found[:, 2] > 0.0

@@ -52,7 +52,7 @@ class Stitches:
         array.release()
 
     def _stitch(self, plan: Plan, levels: bool) -> Stitch:
-        found = stitched(plan.inner, plan.edges)
+        found = stitched(plan.inner, plan.edges, plan.falling)
         vertices = np.empty(len(found.rows), VERTEX)
         vertices["patch"], vertices["place"] = plan.patches[found.rows], found.places
         rows = np.concatenate([plan.inner, plan.edges], 1).astype(np.int32) if levels else None
