@@ -231,6 +231,37 @@ def waves(count: int) -> Array:
     return curve_net(nets)
 
 
+@pytest.mark.parametrize("count", [1, 2, 300])
+def test_without_a_tolerance_curves_are_as_smooth_however_many(studio: Studio, count: int) -> None:
+    """An 80th of a pixel: 5 grey levels of 255 at most. Curves are in one cell each, or alone."""
+    wave = np.array([[0.0, 0.0], [0.1, 1.6], [0.9, -0.6], [1.0, 1.0]])
+    side = int(np.ceil(np.sqrt(count)))
+    places = np.stack(np.divmod(np.arange(count), side), -1)[:, None]
+    net = curve_net((places + 0.1 + 0.8 * wave) * (SIDE / side))
+    smooth = coverage(studio, Curves(net, BLACK, 1.6))
+    exact = coverage(studio, Curves(net.copy(), BLACK, 1.6), tolerance=1e-4)
+    rough = coverage(studio, Curves(net.copy(), BLACK, 1.6), tolerance=0.5)
+    assert np.abs(smooth - exact).max() <= 5.0 / 255.0
+    assert np.abs(rough - exact).max() > 20.0 / 255.0
+
+
+def test_segments_are_counted_once_a_view(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
+    counted: list[int] = []
+    steps = curve_parts.Bends.steps
+
+    def spy(bends: curve_parts.Bends, *view: object) -> NDArray[np.int64]:
+        counted.append(len(bends.off))
+        return steps(bends, *view)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(curve_parts.Bends, "steps", spy)
+    layer = Curves(waves(3), BLACK, 1.6)
+    for tolerance in (0.0, 0.0, 0.25, 0.25, 0.0):
+        coverage(studio, layer, tolerance=tolerance)
+    assert counted == [6, 6]
+    coverage(studio, Curves(waves(3), BLACK, 1.6))
+    assert counted == [6, 6, 6]
+
+
 def test_curves_in_parts_look_the_same(studio: Studio, monkeypatch: pytest.MonkeyPatch) -> None:
     """Few segments for the small, many for the large one; chains stay whole."""
     net = waves(60)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Hashable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,24 +20,31 @@ Ints = NDArray[np.int64]
 
 
 class CurveParts:
-    """Keeps what does not depend on the view, and parts of layers as long as they stay the same."""
+    """Keeps what does not depend on the view, what does as long as that stays the same, and parts
+    of layers as long as they do."""
 
     def __init__(self) -> None:
         self._bends: Kept[Bends] = Kept(lambda _: None)
+        self._steps: Kept[Ints] = Kept(lambda _: None)
         self._starts: Kept[Ints] = Kept(lambda _: None)
         self._parts: Kept[list[tuple[int, Array]]] = Kept(lambda _: None)
 
     def sweep(self) -> None:
         """End of a frame."""
         self._bends.sweep()
+        self._steps.sweep()
         self._starts.sweep()
         self._parts.sweep()
 
     def of_patches(self, layer: IsoLines, camera: Camera, pixels: float, tolerance: float) -> int:
         """Segments of each of a layer's curves; a unit of the view plane is `pixels` pixels."""
         curves = (layer.u, layer.v, layer.span)
-        bends = self._bends.get(layer.net, curves, lambda: iso_bends(layer.net, *curves))
-        return int(bends.steps(camera, pixels, tolerance).max(initial=1))
+
+        def bends() -> Bends:
+            return iso_bends(layer.net, *curves)
+
+        steps = self._steps_of(layer.net, curves, bends, (camera, pixels, tolerance))
+        return int(steps.max(initial=1))
 
     def of_curves(
         self, layer: Curves, camera: Camera, pixels: float, tolerance: float
@@ -43,8 +52,11 @@ class CurveParts:
         """Segments, and the net of the curves that are drawn in so many: all of them in as many as
         the worst one needs, if that is cheap; else each line by itself."""
         nets = layer.net.reshape(-1, *layer.net.shape[-2:])
-        bends = self._bends.get(layer.net, layer.span, lambda: curve_bends(nets, layer.span))
-        steps = bends.steps(camera, pixels, tolerance)
+
+        def bends() -> Bends:
+            return curve_bends(nets, layer.span)
+
+        steps = self._steps_of(layer.net, layer.span, bends, (camera, pixels, tolerance))
         if steps.max() * len(steps) - steps.sum() < WORTH:
             return [(int(steps.max()), layer.net)]
         starts = self._starts.get(layer.net, None, lambda: lines_of(nets)[0])
@@ -54,3 +66,16 @@ class CurveParts:
         return self._parts.get(
             layer.net, key, lambda: [(int(n), nets[steps == n]) for n in np.unique(steps)]
         )
+
+    def _steps_of(
+        self,
+        net: Array,
+        curves: Hashable,
+        make: Callable[[], Bends],
+        view: tuple[Camera, float, float],
+    ) -> Ints:
+        """Segments of each of a net's curves in a view: `Bends.steps` with its arguments."""
+        camera, pixels, tolerance = view
+        bends = self._bends.get(net, curves, make)
+        key = (curves, camera.clip_from_model().tobytes(), pixels, tolerance)
+        return self._steps.get(net, key, lambda: bends.steps(*view))
