@@ -76,4 +76,13 @@ def test_outlines_of_bodies_fall_with_the_square_of_the_steps(
 
 def test_nothing_to_measure_is_said(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["accuracy", "staircase"]) == 0
-    assert capsys.readouterr().out == "staircase has no surface: nothing to measure\n"
+    assert capsys.readouterr().out == "staircase fills no patches or meshes: nothing to measure\n"
+
+
+def test_recorded_meshes_are_measured(capsys: pytest.CaptureFixture[str]) -> None:
+    """Four times the steps are off by a sixteenth, as far as a pixel's rounding lets one see."""
+    coarse, fine = (rows(capsys, "redbook-bezmesh", "--set", f"grid={n}")[0] for n in (3, 12))
+    assert (fine["triangles"], fine["recorded"], fine["tolerance"]) == (288, True, 0.0)
+    assert 10.0 < coarse["mean"] / fine["mean"] < 20.0
+    told = Accuracy(1, "vertex", 1, 2, 3, 0.1, 0.5, 0.9, None, 0.5, 0.0, recorded=True)
+    assert told.line().endswith("as recorded")

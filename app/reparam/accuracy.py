@@ -13,7 +13,8 @@ from .geometry.net import Array
 from .gpu.accuracy import Drawn, deviations, picture_deviations, silhouette
 from .gpu.adaptive import Tolerance, uniform_plan
 from .gpu.arrangement import arrange
-from .scenes.layers import Patches
+from .gpu.recorded_meshes import RecordedMeshes, recorded_meshes
+from .scenes.layers import Patches, Recorded
 from .snapshot import Studio
 from .subject import Subject
 
@@ -22,7 +23,8 @@ FORGIVEN = 1e-4  # share of the fragments: triangles thinner than the rasteriser
 
 @dataclass(frozen=True)
 class Accuracy:
-    """A layer drawn alone, without its trims: pixels between a fragment's centre and the exact
+    """A layer drawn alone, without its trims, or of a recorded one what is filled meshes of one
+    shape: pixels between a fragment's centre and the exact
     surface point of its own patch and (u, v); the same for what its picture shows there, if it has
     a map of its own; and between the drawn outline and the exact one (gpu/accuracy.py)."""
 
@@ -36,7 +38,8 @@ class Accuracy:
     worst: float
     picture: float | None  # as `most`
     silhouette: float
-    tolerance: float  # 0: one level, and nothing is promised
+    tolerance: float  # 0: nothing is promised
+    recorded: bool = False  # by glEvalMesh2, in its own grid; else in one level if not by tolerance
 
     @property
     def ok(self) -> bool:
@@ -51,6 +54,7 @@ class Accuracy:
     def line(self) -> str:
         """As the table has it."""
         asked = f"<= {self.tolerance:g}" if self.tolerance else "one level"
+        asked = "as recorded" if self.recorded else asked
         verdict = "ok  " if self.ok else "FAIL"
         picture = "" if self.picture is None else f"  picture {self.picture:.4f}"
         return (
@@ -63,7 +67,7 @@ class Accuracy:
 
 def measure(studio: Studio, subject: Subject, size: tuple[int, int]) -> Iterator[Accuracy]:
     """Each Patches layer of the subject, framed as `--plain` does, by the studio's evaluator, or
-    by each that there is."""
+    by each that there is; and what Recorded layers have of filled meshes."""
     painter, display = studio.painter, subject.display
     panel = arrange(
         subject.figure().plain(), size, subject.views, True, False, display.perspective
@@ -72,11 +76,19 @@ def measure(studio: Studio, subject: Subject, size: tuple[int, int]) -> Iterator
         evaluators: tuple[str, ...] = (painter.capabilities.evaluator(studio.evaluator),)
     else:
         evaluators = painter.capabilities.evaluators
-    patches = [layer for layer in panel.space.layers if isinstance(layer, Patches)]
-    layers = [replace(layer, solid=False) for layer in patches]  # alone they have another outline
+    surfaces = [each for each in panel.space.layers if isinstance(each, Patches | Recorded)]
+    # Alone they have another outline.
+    layers = [
+        replace(each, solid=False) if isinstance(each, Patches) else each for each in surfaces
+    ]
+    beside = tuple(layer for layer in layers if isinstance(layer, Patches))
     for number, layer in enumerate(layers, start=1):
+        if isinstance(layer, Recorded):
+            for meshes in recorded_meshes(painter, layer.recording, panel.camera, size):
+                yield measured_meshes(number, meshes)
+            continue
         for evaluator in evaluators:
-            tolerance = Tolerance(display.tolerance, size, tuple(layers))
+            tolerance = Tolerance(display.tolerance, size, beside)
             plan = (
                 painter.surfaces.adaptive.plan(layer, panel.camera, evaluator, tolerance)
                 if display.tolerance
@@ -89,10 +101,28 @@ def measure(studio: Studio, subject: Subject, size: tuple[int, int]) -> Iterator
             )
 
 
+def measured_meshes(number: int, meshes: RecordedMeshes) -> Accuracy:
+    """Recorded ones of one shape, in the grid that glMapGrid2 gave them."""
+    off = _found(deviations(meshes))
+    return Accuracy(
+        layer=number,
+        evaluator="vertex",
+        patches=len(meshes.nets),
+        triangles=meshes.triangles,
+        fragments=len(off),
+        mean=float(off.mean()),
+        most=_most(off),
+        worst=float(off.max()),
+        picture=None,
+        silhouette=silhouette(meshes),
+        tolerance=0.0,
+        recorded=True,
+    )
+
+
 def measured(number: int, drawn: Drawn, tolerance: float) -> Accuracy:
     """One layer by one evaluator."""
-    off, texture = deviations(drawn), drawn.layer.texture
-    off = off if len(off) else np.zeros(1)
+    off, texture = _found(deviations(drawn)), drawn.layer.texture
     picture = None
     if texture is not None and not texture.exact and texture.net is not drawn.layer.net:
         picture = _most(picture_deviations(drawn))
@@ -109,6 +139,10 @@ def measured(number: int, drawn: Drawn, tolerance: float) -> Accuracy:
         silhouette=silhouette(drawn),
         tolerance=tolerance,
     )
+
+
+def _found(off: Array) -> Array:
+    return off if len(off) else np.zeros(1)
 
 
 def _most(off: Array) -> float:

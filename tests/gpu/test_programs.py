@@ -59,6 +59,8 @@ VARIANTS: list[tuple[tuple[str, ...], dict[str, Any]]] = [
     *((("mesh.vert", "patch.frag"), look | LOW) for look in MEASURED),
     *((("adaptive.vert", "patch.frag"), look | LOW | ADAPTIVE) for look in MEASURED),
     *(((*TESSELLATION, "patch.frag"), look | HIGH) for look in MEASURED),
+    (("located.vert", "located.frag"), {"LOCATED": 1}),
+    (("located.vert", "patch.frag"), {}),
     *(((*TESSELLATION, "patch.frag"), look | LOW | ADAPTIVE) for look in MEASURED),
     *(((*TESSELLATION, "patch.frag"), look | LOW | ADAPTIVE) for look in LOOKS),
     (("adaptive.vert", "located.frag"), LOCATED),

@@ -30,5 +30,5 @@ def run(options: argparse.Namespace) -> int:
     if options.json:
         print_json([accuracy.row() for accuracy in found])
     elif not found:
-        print(f"{options.subject} has no surface: nothing to measure")
+        print(f"{options.subject} fills no patches or meshes: nothing to measure")
     return 0 if all(accuracy.ok for accuracy in found) else 1

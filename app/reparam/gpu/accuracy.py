@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import moderngl
@@ -13,7 +15,7 @@ from ..geometry.camera import Camera
 from ..geometry.net import Array
 from ..geometry.silhouette import distances, outline
 from ..scenes.layers import Patches
-from .adaptive import Plan
+from .adaptive import Plan, SetCommon
 from .context import bound
 from .evaluation import patch_count
 from .painter import Painter
@@ -26,11 +28,34 @@ FINER, FINEST_SIDE = 8, 4096  # pixels in one, to find the drawn outline; of its
 TIPS = 1e-3  # share of the exact curves
 
 Floats = NDArray[np.float32]
+Ints = NDArray[np.int64]
+
+
+class Measurable(ABC):
+    """Patches drawn alone in a view of so many pixels."""
+
+    painter: Painter
+    camera: Camera
+    size: tuple[int, int]
+
+    @property
+    @abstractmethod
+    def nets(self) -> Array:
+        """Their nets, (patches, m, n, 4)."""
+
+    @property
+    @abstractmethod
+    def steps(self) -> Ints:
+        """In how many steps each is drawn, the larger way, (patches,); 0 for one out of view."""
+
+    @abstractmethod
+    def draw(self, fragment: str, defines: Mapping[str, int | str], set_common: SetCommon) -> None:
+        """Draw with a fragment shader and the uniforms that `set_common` gives it."""
 
 
 @dataclass(frozen=True)
-class Drawn:
-    """A layer drawn alone as planned, in a view of so many pixels."""
+class Drawn(Measurable):
+    """A layer drawn as planned."""
 
     painter: Painter
     layer: Patches
@@ -39,8 +64,26 @@ class Drawn:
     plan: Plan
     size: tuple[int, int]
 
+    @property
+    def nets(self) -> Array:
+        """The layer's."""
+        return self.layer.net if self.layer.net.ndim == 4 else self.layer.net[None]
 
-def deviations(drawn: Drawn) -> Array:
+    @property
+    def steps(self) -> Ints:
+        """As planned."""
+        steps = np.zeros(patch_count(self.layer.net), np.int64)
+        steps[self.plan.patches] = self.plan.inner.max(-1)
+        return steps
+
+    def draw(self, fragment: str, defines: Mapping[str, int | str], set_common: SetCommon) -> None:
+        """By its evaluator."""
+        self.painter.surfaces.adaptive.draw(
+            self.layer, self.evaluator, self.plan, fragment, defines, set_common
+        )
+
+
+def deviations(drawn: Measurable) -> Array:
     """For each fragment: pixels (k,) between its centre and the float64 surface point of its own
     patch and (u, v), projected."""
     places, _ = located(drawn)
@@ -75,7 +118,7 @@ def picture_deviations(drawn: Drawn) -> Array:
     return np.asarray(np.linalg.norm(shown - _centers(rows, columns), axis=-1)[regular])
 
 
-def silhouette(drawn: Drawn) -> float:
+def silhouette(drawn: Measurable) -> float:
     """Pixels between the drawn outline and the exact one, whichever way is longer:
 
     from where drawing and ground meet, on a grid of eighths of a pixel, to the nearest curve on
@@ -92,10 +135,7 @@ def silhouette(drawn: Drawn) -> float:
             np.stack([up[1] + 0.5, up[0] + 1.0], -1),
         ]
     )
-    steps = np.zeros(patch_count(drawn.layer.net), np.int64)
-    steps[drawn.plan.patches] = 4 * drawn.plan.inner.max(-1)
-    nets = drawn.layer.net if drawn.layer.net.ndim == 4 else drawn.layer.net[None]
-    exact = outline(nets, pixel_nets(drawn), steps)
+    exact = outline(drawn.nets, pixel_nets(drawn), 4 * drawn.steps)
     ends = exact.reshape(-1, 2)
     ends = ends[((ends > 0.0) & (ends < np.array(size))).all(-1)]
     if not len(rim) or not len(ends):
@@ -108,7 +148,7 @@ def silhouette(drawn: Drawn) -> float:
     return float(max(distances(rim, exact).max(), np.quantile(left, 1.0 - TIPS)))
 
 
-def located(drawn: Drawn, textured: bool = False) -> tuple[Floats, Floats]:
+def located(drawn: Measurable, textured: bool = False) -> tuple[Floats, Floats]:
     """(patch, u, v, 1) of each fragment, 0 at the end where there is none: (height, width, 4),
     bottom row first; and, if asked for, (s, t, ...) of its map."""
     ctx, size = drawn.painter.ctx, drawn.size
@@ -130,7 +170,7 @@ def located(drawn: Drawn, textured: bool = False) -> tuple[Floats, Floats]:
     return read[0], read[-1]
 
 
-def covered(drawn: Drawn, size: tuple[int, int]) -> NDArray[np.bool_]:
+def covered(drawn: Measurable, size: tuple[int, int]) -> NDArray[np.bool_]:
     """Which pixels of a picture of another size the same triangles cover: (height, width)."""
     ctx = drawn.painter.ctx
     check_size(*size, drawn.painter.capabilities)
@@ -145,7 +185,7 @@ def covered(drawn: Drawn, size: tuple[int, int]) -> NDArray[np.bool_]:
     return np.asarray(read.reshape(size[1], size[0]) > 0)
 
 
-def _draw(drawn: Drawn, fragment: str, defines: dict[str, int]) -> None:
+def _draw(drawn: Measurable, fragment: str, defines: dict[str, int]) -> None:
     matrix = drawn.camera.clip_from_model().T.astype(np.float32).tobytes()
 
     def set_common(program: Program) -> None:
@@ -155,20 +195,17 @@ def _draw(drawn: Drawn, fragment: str, defines: dict[str, int]) -> None:
         if "TEXTURED" in program.defines:
             program.set(image_from_map=(1.0, 1.0, 0.0, 0.0))
 
-    drawn.painter.surfaces.adaptive.draw(
-        drawn.layer, drawn.evaluator, drawn.plan, fragment, defines, set_common
-    )
+    drawn.draw(fragment, defines, set_common)
 
 
-def pixel_nets(drawn: Drawn) -> Array:
+def pixel_nets(drawn: Measurable) -> Array:
     """The patches as they are seen, in homogeneous pixels (x w, y w, w): (patches, m, n, 3)."""
-    nets = drawn.layer.net if drawn.layer.net.ndim == 4 else drawn.layer.net[None]
-    clip = nets @ drawn.camera.clip_from_model().T
+    clip = drawn.nets @ drawn.camera.clip_from_model().T
     seen = (clip[..., :2] + clip[..., 3:]) / 2.0 * np.array(drawn.size)
     return np.concatenate([seen, clip[..., 3:]], -1)
 
 
-def surface_points(drawn: Drawn, places: Floats) -> Array:
+def surface_points(drawn: Measurable, places: Floats) -> Array:
     """Pixels (k, 2) of exact surface points at places (k, 4), each (patch, u, v, ...)."""
     return _points_and_slopes(pixel_nets(drawn), places)[0]
 
