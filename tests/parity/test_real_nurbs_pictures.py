@@ -28,6 +28,7 @@ from reparam.evaluators import (
     Light,
 )
 from reparam.evaluators.grids import primitive_indices
+from reparam.evaluators.matrices import frustum, perspective
 from reparam.evaluators.nurbs_parts import recording
 from reparam.evaluators.tessellations import read_float64, tessellate
 from reparam.geometry.net import Array
@@ -87,8 +88,8 @@ def heart_modelview() -> Array:
     return np.asarray(eye @ there @ book.affine(redbook_nurbs.TURN) @ back)
 
 
-HILL = (book.affine(0.5 * book.PROGRAM_TURN, (0.0, 0.0, -5.0)), book.perspective(45.0, 3.0, 8.0))
-HEART = (heart_modelview(), book.frustum(-1.0, 1.0, -1.5, 0.5, 0.8, 10.0))
+HILL = (book.affine(0.5 * book.PROGRAM_TURN, (0.0, 0.0, -5.0)), perspective(45.0, 1.0, 3.0, 8.0))
+HEART = (heart_modelview(), frustum(-1.0, 1.0, -1.5, 0.5, 0.8, 10.0))
 PROGRAMS = {
     "surface": Program(hill, *HILL, book.LIGHT, 1e-3),
     # The real one has a bright rim along all trims, which the untrimmed hill has not.

@@ -16,10 +16,11 @@ from real_opengl import Missing, RealOpenGL
 from reparam import evaluators as ev
 from reparam.assets import texture_path
 from reparam.evaluators import Evaluators
+from reparam.evaluators.matrices import rotate
 from reparam.scenes.figures.redbook_bezcurve import CONTROL_POINTS
 from reparam.scenes.figures.redbook_bezmesh import LIGHT
 from reparam.scenes.figures.redbook_texturesurf import TEXTURE_POINTS
-from reparam.scenes.redbook import SURFACE, rotation
+from reparam.scenes.redbook import SURFACE
 from reparam.snapshot import Studio
 
 SIZE = 256
@@ -111,7 +112,7 @@ def waves() -> Image.Image:
 def matrices(program: Program) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     half, modelview = PROGRAMS[program][0], np.eye(4)
     if program is not bezcurve:
-        modelview[:3, :3] = rotation(85.0, (1.0, 1.0, 1.0))
+        modelview = rotate(85.0, 1.0, 1.0, 1.0)
     return np.diag([1 / half, 1 / half, -1 / half, 1.0]), modelview
 
 

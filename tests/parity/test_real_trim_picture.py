@@ -34,11 +34,11 @@ from reparam.evaluators.glu import (
     NurbsRenderer,
 )
 from reparam.evaluators.light import Light
+from reparam.evaluators.matrices import perspective, rotate, scale, translate
 from reparam.evaluators.nurbs_parts import recording
 from reparam.geometry.net import Array
 from reparam.scenes.figures.redbook_trim import BORDER, HOLE
-from reparam.scenes.nurbs_programs import HILL, KNOTS, affine, perspective
-from reparam.scenes.redbook import rotation
+from reparam.scenes.nurbs_programs import HILL, KNOTS
 from reparam.snapshot import Studio
 
 GLU = real_glu.library()
@@ -56,8 +56,8 @@ LINE = HOLE[[3, 4, 0]]
 
 
 def matrices() -> tuple[Array, Array]:
-    turned = affine(0.5 * rotation(330.0, (1.0, 0.0, 0.0)), (0.0, 0.0, -5.0))
-    return perspective(45.0, 3.0, 8.0), turned
+    modelview = translate(0.0, 0.0, -5.0) @ rotate(330.0, 1.0, 0.0, 0.0) @ scale(0.5, 0.5, 0.5)
+    return perspective(45.0, 1.0, 3.0, 8.0), modelview
 
 
 def drawn_by_the_real_one() -> NDArray[np.uint8]:

@@ -13,6 +13,7 @@ from .glu_constants import *  # noqa: F403
 from .glu_errors import *  # noqa: F403
 from .glu_errors import NURBS_ERRORS, GluError, GluInvalidEnum, GluInvalidValue, NurbsError
 from .nurbs_parts import recording
+from .nurbs_properties import View
 from .nurbs_renderer import NurbsRenderer
 from .tessellations import evaluate_at, tessellate
 
@@ -51,6 +52,7 @@ __all__ = [
     "GluInvalidValue",
     "NurbsError",
     "NurbsRenderer",
+    "View",
     "evaluate_at",
     "recording",
     "tessellate",

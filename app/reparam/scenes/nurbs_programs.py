@@ -12,6 +12,7 @@ import numpy as np
 
 from ..evaluators import glu_constants as k
 from ..evaluators.light import Light
+from ..evaluators.matrices import perspective, rotate
 from ..evaluators.nurbs_parts import recording
 from ..evaluators.nurbs_renderer import NurbsRenderer
 from ..evaluators.recording import Current
@@ -20,7 +21,6 @@ from ..geometry.camera import View, orbit_rotation
 from . import palette
 from .layers import Array, Recorded
 from .parameters import Range
-from .redbook import rotation
 
 VIEWPORT = (0, 0, 500, 500)
 KNOTS = (0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0)
@@ -54,29 +54,12 @@ Display = Annotated[Literal["fill", "outline-polygon", "outline-patch"], "GLU_DI
 
 # surface.c and trim.c: one light from the eye, a grey that shines.
 LIGHT = Light(material_diffuse=(0.7, 0.7, 0.7), material_specular=(1.0, 1.0, 1.0), shininess=100.0)
-PROGRAM_TURN = rotation(330.0, (1.0, 0.0, 0.0))  # glRotatef(330, 1, 0, 0)
+PROGRAM_TURN = rotate(330.0, 1.0, 0.0, 0.0)[:3, :3]  # glRotatef(330, 1, 0, 0)
 
 
 def seen(turn: Array) -> Array:
     """A rotation (3, 3) of a program, as the untouched view of a spatial space shows it."""
     return np.asarray(orbit_rotation(View().azimuth, View().elevation).T @ turn)
-
-
-def frustum(left: float, right: float, bottom: float, top: float, near: float, far: float) -> Array:
-    """glFrustum's matrix (4, 4), for column vectors."""
-    wide, high, deep = right - left, top - bottom, far - near
-    return np.array([
-        [2.0 * near / wide, 0.0, (right + left) / wide, 0.0],
-        [0.0, 2.0 * near / high, (top + bottom) / high, 0.0],
-        [0.0, 0.0, -(far + near) / deep, -2.0 * far * near / deep],
-        [0.0, 0.0, -1.0, 0.0],
-    ])  # fmt: skip
-
-
-def perspective(degrees: float, near: float, far: float) -> Array:
-    """gluPerspective's matrix for a square window."""
-    reach = near * np.tan(np.radians(degrees) / 2.0)
-    return frustum(-reach, reach, -reach, reach, near, far)
 
 
 def affine(linear: Array, translation: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Array:
@@ -103,7 +86,7 @@ def hill_renderer(sampling: str, tolerance: float, display: str) -> NurbsRendere
     """That of surface.c and trim.c, for control points turned by `seen(PROGRAM_TURN)`."""
     back = PROGRAM_TURN @ seen(PROGRAM_TURN).T
     modelview = affine(0.5 * back, (0.0, 0.0, -5.0))
-    return new_renderer(sampling, tolerance, display, modelview, perspective(45.0, 3.0, 8.0))
+    return new_renderer(sampling, tolerance, display, modelview, perspective(45.0, 1.0, 3.0, 8.0))
 
 
 def properties_caption(sampling: str, tolerance: float, display: str) -> str:

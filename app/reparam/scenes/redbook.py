@@ -7,7 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from ..evaluators.constants import GL_POINT
+from ..evaluators.matrices import rotate
 from ..evaluators.recorder import Recorder
+from ..evaluators.tessellations import read_float64
 from ..geometry.camera import View, orbit_rotation
 from ..geometry.evaluate import sample_surface
 from ..geometry.net import control_net
@@ -26,18 +29,9 @@ NAMES = tuple(f"ctrlpoints[{i}][{j}]" for i in range(4) for j in range(4))
 POINTS_HELP = "the control points ctrlpoints[i][j], j going with u"
 
 
-def rotation(degrees: float, axis: tuple[float, float, float]) -> Array:
-    """The matrix (3, 3) of glRotate, for column vectors (Rodrigues)."""
-    x, y, z = np.asarray(axis) / np.linalg.norm(axis)
-    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    a = np.radians(degrees)
-    turn = np.eye(3) + np.sin(a) * cross + (1.0 - np.cos(a)) * cross @ cross
-    return np.asarray(turn)
-
-
 # glRotatef(85, 1, 1, 1), as the untouched view of a spatial space sees it. Turning the control
 # points turns the surface.
-TURN = orbit_rotation(View().azimuth, View().elevation).T @ rotation(85.0, (1.0, 1.0, 1.0))
+TURN = orbit_rotation(View().azimuth, View().elevation).T @ rotate(85.0, 1.0, 1.0, 1.0)[:3, :3]
 
 
 def turned(points: Array) -> Array:
@@ -56,6 +50,16 @@ def define_surface(gl: Recorder, target: int, points: Array) -> None:
     """The programs' glMap2f and glEnable, of the turned points."""
     gl.glMap2f(target, 0, 1, 3, 4, 0, 1, 12, 4, turned(points))
     gl.glEnable(target)
+
+
+def evaluated_mesh(gl: Recorder) -> tuple[Array, Array, Array]:
+    """The programs' glEvalMesh2 of 4 x 4 cells, as points (25, 3), unit normals (25, 3) and texture
+    coordinates (25, 4), in the program's own coordinates: turned back."""
+    gl.glMapGrid2f(4, 0, 1, 4, 0, 1)
+    gl.glEvalMesh2(GL_POINT, 0, 4, 0, 4)
+    (mesh,) = read_float64(gl.take())
+    points, normals = (values.astype(np.float64) @ TURN for values in (mesh.points, mesh.normals))
+    return points, normals, mesh.texcoords.astype(np.float64)
 
 
 def outline(points: Array) -> IsoLines:

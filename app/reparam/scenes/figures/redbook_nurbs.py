@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from ...evaluators.constants import GL_MAP2_VERTEX_4
-from ...evaluators.glu import gluBeginSurface, gluEndSurface, gluNurbsSurface
+from ...evaluators.glu import NurbsRenderer, gluBeginSurface, gluEndSurface, gluNurbsSurface
 from ...evaluators.light import Light
+from ...evaluators.matrices import frustum, look_at, rotate
+from ...evaluators.tessellations import evaluate_at, read_float64
 from ...geometry.evaluate import sample_surface
 from ...geometry.extraction import surface_to_bezier
 from .. import palette
+from ..claims import Claim
 from ..layers import Array, ControlNet, Figure, Space
 from ..nurbs_programs import (
     Display,
@@ -17,12 +22,10 @@ from ..nurbs_programs import (
     Sampling,
     affine,
     drawn,
-    frustum,
     new_renderer,
     properties_caption,
     seen,
 )
-from ..redbook import rotation
 from ..registry import scene
 
 S_KNOTS = (-1.0, -1.0, -1.0, 0.0, 1.0, 2.0, 3.0, 4.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 9.0, 9.0)
@@ -58,16 +61,9 @@ def heart() -> Array:
     return np.asarray(points * OUTLINE[:, None, 2:])
 
 
-def look_at(eye: Array, center: Array, up: Array) -> Array:
-    """gluLookAt's rotation (3, 3)."""
-    back = (eye - center) / np.linalg.norm(eye - center)
-    right = np.cross(up, back) / np.linalg.norm(np.cross(up, back))
-    return np.stack([right, np.cross(back, right), back])
-
-
 EYE = np.array([7.0, 4.5, 4.0])
-LOOK = look_at(EYE, np.array([4.5, 4.5, 2.0]), np.array([6.0, -3.0, 2.0]))
-TURN = rotation(220.0, (1.0, 0.0, 0.0)) @ rotation(115.0, (0.0, 1.0, 0.0))
+LOOK = look_at(EYE, (4.5, 4.5, 2.0), (6.0, -3.0, 2.0))[:3, :3]
+TURN = (rotate(220.0, 1.0, 0.0, 0.0) @ rotate(115.0, 0.0, 1.0, 0.0))[:3, :3]
 MIDDLE = np.array([4.0, 4.5, 2.5])  # what the program turns about
 
 
@@ -93,3 +89,22 @@ def redbook_nurbs(
         properties_caption(sampling, pixels, display),
     )
     return Figure((Space("physical", bounds, layers, spatial=True),), caption)
+
+
+@redbook_nurbs.claims
+def claims() -> Iterator[Claim]:
+    nurb = NurbsRenderer()
+    gluNurbsSurface(nurb, S_KNOTS, T_KNOTS, heart(), GL_MAP2_VERTEX_4)
+    (surface,) = nurb.take()
+
+    def at(*parameters: tuple[float, float]) -> Array:
+        return evaluate_at(surface, np.array(parameters), read_float64).points.astype(np.float64)
+
+    tip, middle, notch = at((-1.0, 1.5), (4.0, 1.5), (4.0, 1.0)).tolist()
+    yield Claim("nurbs.c", "the tip, where the outline bulges", [4.0, 1.8, 2.5], tip, 1e-6)
+    yield Claim("nurbs.c", "the notch is a control point: 4 is twice a knot", [4.0, 5.2, 2.0],
+                notch, 1e-6)  # fmt: skip
+    yield Claim("nurbs.c", "the notch half-way up", [4.0, 4.9, 2.5], middle, 1e-6)
+    here, there = at((2.3, 1.2)), at((8.0 - 2.3, 1.2))
+    mirrored = ([8.0, 0.0, 0.0] + there * [-1.0, 1.0, 1.0])[0].tolist()
+    yield Claim("nurbs.c", "s = 2.3 and its mirror image s = 5.7", mirrored, here[0].tolist(), 1e-6)
