@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reparam.geometry.formula import FUNCTIONS, LONGEST, Number, Variable, parse
+from reparam.geometry.formula import FUNCTIONS, Number, Variable
+from reparam.geometry.parsing import LONGEST, parse
 
 U = np.linspace(0.07, 0.93, 23)
 

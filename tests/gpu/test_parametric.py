@@ -8,7 +8,7 @@ import pytest
 from reparam.geometry.arclength import ArcLength
 from reparam.geometry.change import NAMED, named_change
 from reparam.geometry.curve import circular_arc, curve_net, curve_points, speed
-from reparam.geometry.formula import parse
+from reparam.geometry.parsing import parse
 from reparam.snapshot import Studio
 
 U = np.linspace(0.0, 1.0, 1001).astype(np.float32).astype(np.float64)

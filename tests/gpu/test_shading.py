@@ -15,9 +15,9 @@ from reparam.geometry.camera import Camera, View, frame
 from reparam.geometry.curvature import curvatures
 from reparam.geometry.distortion import distortions
 from reparam.geometry.evaluate import evaluate, project, sample_surface
-from reparam.geometry.formula import parse
 from reparam.geometry.net import Array, control_net
 from reparam.geometry.normal import surface_normal
+from reparam.geometry.parsing import parse
 from reparam.gpu.adaptive import Tolerance
 from reparam.gpu.surfaces import Fine
 from reparam.scenes.layers import Kind, Patches, Picture, Ramp, Texture

@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .arclength import ArcLength, Speed
-from .formula import Formula, parse
+from .formula import Formula
+from .parsing import parse
 
 Array = NDArray[np.float64]
 Map = Callable[[Array], Array]

@@ -16,9 +16,10 @@ import numpy as np
 
 from ..geometry.evaluate import evaluate, project
 from ..geometry.extraction import surface_to_bezier
-from ..geometry.formula import Formula, parse
+from ..geometry.formula import Formula
 from ..geometry.isogeometric import Solution, solve
 from ..geometry.net import Array, control_net
+from ..geometry.parsing import parse
 from ..geometry.planar_maps import R
 from .remember import remember
 

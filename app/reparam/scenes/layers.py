@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 
 from ..geometry.evaluate import evaluate, project, sample_surface
 from ..geometry.formula import Formula
+from .textures import Frozen
 from .textures import Picture as Picture
 from .textures import Ramp as Ramp
 from .textures import Texture as Texture
-from .textures import freeze
 
 if TYPE_CHECKING:
     from ..evaluators.light import Light
@@ -40,7 +40,7 @@ class Kind:
 
 
 @dataclass(frozen=True)
-class Patches:
+class Patches(Frozen):
     """Tensor-product Bezier patches of one order: a net (m, n, 4) or (patches, m, n, 4).
 
     A layer is `solid` if it and the solid layers beside it bound a body that is closed, does not
@@ -62,11 +62,11 @@ class Patches:
         count = self.net.shape[0] if self.net.ndim == 4 else 1
         if self.domains is not None and self.domains.shape != (count, 4):
             raise ValueError(f"expected domains ({count}, 4), found {self.domains.shape}")
-        freeze(self)
+        super().__post_init__()
 
 
 @dataclass(frozen=True)
-class IsoLines:
+class IsoLines(Frozen):
     """The curves u = const and v = const of patches, as wide as `width` (in figure units)."""
 
     net: Array
@@ -78,12 +78,9 @@ class IsoLines:
     arrow: bool = False
     lift: int = 0  # of strokes in one place in space the higher one is seen
 
-    def __post_init__(self) -> None:
-        freeze(self)
-
 
 @dataclass(frozen=True)
-class Curves:
+class Curves(Frozen):
     """Bezier curves of one order: a net (n, 4) or (curves, n, 4), homogeneous.
 
     Curves that follow one another end to start are one line: they meet without a seam. An arrow
@@ -96,12 +93,9 @@ class Curves:
     span: tuple[float, float] = (0.0, 1.0)  # of the parameter; beyond [0,1] extrapolates
     arrow: bool = False
 
-    def __post_init__(self) -> None:
-        freeze(self)
-
 
 @dataclass(frozen=True)
-class Polylines:
+class Polylines(Frozen):
     """Points (k, 3) or (lines, k, 3) joined by straight strokes, with round joins and caps."""
 
     points: Array
@@ -111,12 +105,9 @@ class Polylines:
     arrow: bool = False
     lift: int = 0  # as of iso-lines
 
-    def __post_init__(self) -> None:
-        freeze(self)
-
 
 @dataclass(frozen=True)
-class Dots:
+class Dots(Frozen):
     """Discs at points (k, 3)."""
 
     at: Array
@@ -124,12 +115,9 @@ class Dots:
     radius: float = 3.0
     lift: int = 0
 
-    def __post_init__(self) -> None:
-        freeze(self)
-
 
 @dataclass(frozen=True)
-class Parametric:
+class Parametric(Frozen):
     """The curve (x(u), y(u)) at parameters (k,), evaluated on the GPU from its own formulas.
 
     The formulas hold u and w; `width` 0 draws no line, `radius` 0 no dots.
@@ -143,12 +131,9 @@ class Parametric:
     width: float = 1.6
     radius: float = 0.0
 
-    def __post_init__(self) -> None:
-        freeze(self)
-
 
 @dataclass(frozen=True)
-class Traced:
+class Traced(Frozen):
     """Dots on Bezier curves at fractions (k,) of their length, found on the GPU from a table.
 
     `net` is (n, 4) or (curves, n, 4), end to start; `table` (entries, 2) holds u and du/dfraction
@@ -161,21 +146,15 @@ class Traced:
     color: Color = INK
     radius: float = 3.0
 
-    def __post_init__(self) -> None:
-        freeze(self)
-
 
 @dataclass(frozen=True)
-class ControlNet:
+class ControlNet(Frozen):
     """The control points of patches and the legs between them; drawn when the user asks."""
 
     net: Array
     color: Color = (0.0, 0.0, 0.0)
     width: float = 1.0
     dot: float = 3.0
-
-    def __post_init__(self) -> None:
-        freeze(self)
 
 
 @dataclass(frozen=True)
@@ -209,7 +188,7 @@ Click = Callable[[Mapping[str, Any], int], Mapping[str, Any]]
 
 
 @dataclass(frozen=True)
-class Dial:
+class Dial(Frozen):
     """Numbers (k,) that handles stand for: told and typed instead of their coordinates.
 
     `turn(values, index, number)` returns the parameters that change, as `drag` does.
@@ -218,12 +197,9 @@ class Dial:
     numbers: Array
     turn: Callable[[Mapping[str, Any], int, float], Mapping[str, Any]]
 
-    def __post_init__(self) -> None:
-        freeze(self)
-
 
 @dataclass(frozen=True)
-class Handles:
+class Handles(Frozen):
     """What a hand can drag: points (k, 3). The window shows them, a picture only if asked to.
 
     `drag(values, index, point)` gets the scene's parameter values and where point `index` shall
@@ -241,9 +217,6 @@ class Handles:
     click: Click | None = None
     dial: Dial | None = None
 
-    def __post_init__(self) -> None:
-        freeze(self)
-
     def name(self, index: int) -> str:
         """What a point is called."""
         return self.names[index] if self.names else f"point {index + 1}"
@@ -254,7 +227,7 @@ Layer = Patches | Stroked | ControlNet | Recorded | Label | Handles
 
 
 @dataclass(frozen=True)
-class Space:
+class Space(Frozen):
     """One viewport with a coordinate system of its own: domain, texture, physical, plot."""
 
     name: str
@@ -268,9 +241,6 @@ class Space:
     notes: tuple[tuple[str, str], ...] = ()  # beneath it, names and values in two columns
     map: Array | None = None  # the nets by which the parameter square lands here: linked.py
     domains: Array | None = None  # of the map's patches in their surface's parameters
-
-    def __post_init__(self) -> None:
-        freeze(self)
 
 
 @dataclass(frozen=True)

@@ -13,12 +13,14 @@ from ..geometry.formula import Formula
 Array = NDArray[np.float64]
 
 
-def freeze(layer: object) -> None:
-    """Make the arrays of a dataclass read-only."""
-    for field in fields(layer):  # type: ignore[arg-type]
-        value = getattr(layer, field.name)
-        if isinstance(value, np.ndarray):
-            value.setflags(write=False)
+class Frozen:
+    """Of dataclasses whose arrays become read-only."""
+
+    def __post_init__(self) -> None:
+        for field in fields(self):  # type: ignore[arg-type]
+            value = getattr(self, field.name)
+            if isinstance(value, np.ndarray):
+                value.setflags(write=False)
 
 
 @dataclass(frozen=True)
@@ -50,7 +52,7 @@ class Ramp:
 
 
 @dataclass(frozen=True)
-class Texture:
+class Texture(Frozen):
     """A second net, (m, n, 4) for all patches or (patches, m, n, 4), with what it looks up.
 
     GL_MAP2_TEXTURE_COORD: evaluated at the vertices by the same evaluator as the position, and
@@ -64,4 +66,4 @@ class Texture:
     def __post_init__(self) -> None:
         if self.exact and not isinstance(self.picture, Ramp):
             raise ValueError("expected a ramp to be looked up exactly, found a picture")
-        freeze(self)
+        super().__post_init__()

@@ -18,7 +18,8 @@ import numpy as np
 
 from ...geometry.arclength import polygon_length
 from ...geometry.curve import circular_arc, curve_points
-from ...geometry.formula import Formula, parse
+from ...geometry.formula import Formula
+from ...geometry.parsing import parse
 from ...geometry.regions import region_centers
 from .. import palette
 from ..claims import Claim, Measure
