@@ -16,9 +16,10 @@ from reparam.cli import main
 from reparam.files.vector import Drawing, Group, Raster, Shape, pdf, svg
 from reparam.geometry.bernstein import bernstein
 from reparam.geometry.curve import circular_arc, curve_net, curve_points, restrict
+from reparam.line_paths import TOLERANCE, LinePaths, iso_curves, traced_points
 from reparam.scenes.layers import Curves, Dots, Figure, IsoLines, Polylines, Space, plane
 from reparam.subject import open_subject
-from reparam.vectors import TOLERANCE, _Lines, draw_vectors, iso_curves, traced_points
+from reparam.vectors import draw_vectors
 
 SVG = "{http://www.w3.org/2000/svg}"
 SIZE = (400, 300)
@@ -37,7 +38,7 @@ def drawn(*layers: object) -> list[Shape]:
     camera = Camera(np.eye(3), np.array([200.0, 150.0, 0.0]), 200.0, 150.0, 10.0)
     region = Region(0, 0, *SIZE)
     panel = Panel(Space("p", plane(0, 0, 1, 1), ()), region, camera, region)
-    return [shape for layer in layers for shape in _Lines(panel, 1.0).shapes(layer)]  # type: ignore[arg-type]
+    return [shape for layer in layers for shape in LinePaths(panel, 1.0).shapes(layer)]  # type: ignore[arg-type]
 
 
 def flattened(shape: Shape, samples: int = 64) -> list[NDArray[np.float64]]:

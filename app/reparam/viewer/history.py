@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
 from ..geometry.camera import View
 from ..subject import Subject
 
@@ -69,3 +71,17 @@ class History:
         step.gesture = None  # what follows does not go on with it
         goal.append(step)
         return step
+
+
+def difference(before: Subject, after: Subject) -> str:
+    """Names and new values of the parameters that differ."""
+    if before.scene.name != after.scene.name:
+        return after.scene.name
+    names = changed_names(before, after)
+    return ", ".join(f"{name} = {after.shown(name)}" for name in names)
+
+
+def changed_names(before: Subject, after: Subject) -> list[str]:
+    """The parameters of a scene that differ."""
+    names = after.parameters()
+    return [name for name in names if not np.array_equal(before.value(name), after.value(name))]

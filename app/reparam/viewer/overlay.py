@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from ..gpu.labels import SMALLEST, measure
 from ..gpu.painter import Painter
 from .keys import keys_groups
-from .stage import Prompt
+from .prompt import Prompt
 
 INK = (1.0, 1.0, 1.0)
 FAINT = (0.70, 0.70, 0.74)

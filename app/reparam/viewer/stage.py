@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import inf
 from typing import Any
-
-import numpy as np
 
 from ..errors import ReparamError
 from ..files.picture import find_picture, read_picture
@@ -15,22 +13,13 @@ from ..geometry.camera import View
 from ..scenes.cursor import Cursor
 from ..scenes.parameters import Range
 from ..subject import Subject, open_subject
-from .history import History, Moment
+from .history import History, Moment, difference
 from .motion import Motion, phase, value_at
+from .prompt import Prompt
 from .views import Views
 
 NOTICE_SECONDS = 2.5
 ANIMATION_SECONDS = 3.0  # from one end to the other
-
-
-@dataclass
-class Prompt:
-    """A line of text that is asked for, and what it is for. `accept` raises what is wrong."""
-
-    title: str
-    text: str
-    accept: Callable[[str], None]
-    offered: bool  # the text is only proposed: typing begins a new one
 
 
 class Stage(Views):
@@ -105,8 +94,7 @@ class Stage(Views):
     def type_text(self, text: str) -> None:
         """More of the line that is asked for."""
         if self.prompt is not None:
-            self.prompt.text = text if self.prompt.offered else self.prompt.text + text
-            self.prompt.offered = False
+            self.prompt.type(text)
             self.refresh = True
 
     def type_key(self, name: str) -> None:
@@ -116,8 +104,7 @@ class Stage(Views):
             return
         self.refresh = True
         if name == "BACKSPACE":
-            prompt.text = "" if prompt.offered else prompt.text[:-1]
-            prompt.offered = False
+            prompt.take_back()
         elif name == "ESC":
             self.prompt = None
         elif name == "ENTER":
@@ -292,17 +279,3 @@ class Stage(Views):
 
     def _cycle(self, name: str) -> None:
         self._tell(name, self.subject.parameters()[name].following(self.subject.value(name)))
-
-
-def difference(before: Subject, after: Subject) -> str:
-    """Names and new values of the parameters that differ."""
-    if before.scene.name != after.scene.name:
-        return after.scene.name
-    names = changed_names(before, after)
-    return ", ".join(f"{name} = {after.shown(name)}" for name in names)
-
-
-def changed_names(before: Subject, after: Subject) -> list[str]:
-    """The parameters of a scene that differ."""
-    names = after.parameters()
-    return [name for name in names if not np.array_equal(before.value(name), after.value(name))]

@@ -9,7 +9,8 @@ from ..scenes.linked import can_link
 from ..scenes.registry import scene_names
 from ..scenes.shading import HALF_A_PIXEL
 from ..subject import Subject, scene_subject
-from .stage import Stage, changed_names
+from .history import changed_names
+from .stage import Stage
 
 LEVELS = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256)
 TOLERANCES = (0.125, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0)
