@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
@@ -27,6 +28,30 @@ def studio(one_studio: Studio) -> Studio:
     """One headless context for all tests of a process, current whatever others have made."""
     one_studio.ctx.__enter__()  # type: ignore[no-untyped-call]
     return one_studio
+
+
+@pytest.fixture(params=["vertex", "tessellation"])
+def evaluator(request: pytest.FixtureRequest, studio: Studio) -> Iterator[str]:
+    """By each of them all that the studio draws."""
+    if request.param == "tessellation" and not studio.painter.capabilities.tessellation:
+        pytest.skip("OpenGL 4.0 is not there")
+    studio.evaluator = request.param
+    yield request.param
+    studio.evaluator = None
+
+
+@pytest.fixture
+def own_context(studio: Studio) -> Iterator[None]:
+    """A command opens a context of its own; afterwards the tests' one is current again."""
+    yield
+    studio.ctx.__enter__()
+
+
+@pytest.fixture
+def out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Where a picture may be written; the working directory is beside it."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path / "out.png"
 
 
 @pytest.fixture(autouse=True)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from math import sqrt
 from pathlib import Path
 
@@ -35,14 +34,7 @@ FILES = {  # in the plane z = 0, with the area
     "rational": ANNULUS,
 }
 
-
-@pytest.fixture(params=["vertex", "tessellation"], autouse=True)
-def evaluator(request: pytest.FixtureRequest, studio: Studio) -> Iterator[str]:
-    if request.param == "tessellation" and not studio.painter.capabilities.tessellation:
-        pytest.skip("OpenGL 4.0 is not there")
-    studio.evaluator = request.param
-    yield request.param
-    studio.evaluator = None
+pytestmark = pytest.mark.usefixtures("evaluator")
 
 
 def write(folder: Path, text: str) -> Path:

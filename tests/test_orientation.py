@@ -3,7 +3,6 @@ changes no pixel."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -31,14 +30,7 @@ POINTS = [  # degree 2 in u, downwards; degree 3 in v, to the right; no symmetry
 NET = control_net(POINTS)
 EXACT = ["filter=nearest", "samples=1"]
 
-
-@pytest.fixture(params=["vertex", "tessellation"], autouse=True)
-def evaluator(request: pytest.FixtureRequest, studio: Studio) -> Iterator[str]:
-    if request.param == "tessellation" and not studio.painter.capabilities.tessellation:
-        pytest.skip("OpenGL 4.0 is not there")
-    studio.evaluator = request.param
-    yield request.param
-    studio.evaluator = None
+pytestmark = pytest.mark.usefixtures("evaluator")
 
 
 def planar_file(folder: Path, points: Array) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from functools import cache
 
 import numpy as np
@@ -31,14 +30,7 @@ GROUND = np.array([0.0, 0.0, 255.0])
 _TILE = np.asarray(Image.open(texture_path("checkerboard")).convert("RGB"), float)
 LIGHT, DARK = _TILE[0, 0], _TILE[-1, 0]
 
-
-@pytest.fixture(params=["vertex", "tessellation"], autouse=True)
-def evaluator(request: pytest.FixtureRequest, studio: Studio) -> Iterator[str]:
-    if request.param == "tessellation" and not studio.painter.capabilities.tessellation:
-        pytest.skip("OpenGL 4.0 is not there")
-    studio.evaluator = request.param
-    yield request.param
-    studio.evaluator = None
+pytestmark = pytest.mark.usefixtures("evaluator")
 
 
 def axes(size: int, whole: float = WHOLE) -> tuple[Array, Array]:

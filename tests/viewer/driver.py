@@ -19,6 +19,7 @@ from PIL import Image
 
 SIZE = (320, 240)
 SECONDS = 30.0
+COMPLAINTS = ("Traceback", "OpenGL:", "Error", "expected no error")
 SOFTPIPE_ERROR = 1  # of 255: its first picture of a texture differs so much from the second
 
 
@@ -178,3 +179,8 @@ class Window:
         command = ["xdotool", "key", "--window", self.id, "Escape"]
         subprocess.run(command, env=self.environment, capture_output=True, check=False)
         return self.process.wait(SECONDS)
+
+
+def assert_no_complaint(window: Window) -> None:
+    text = window.log.read_text()
+    assert not [word for word in COMPLAINTS if word in text], text[-3000:]
