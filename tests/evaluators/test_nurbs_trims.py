@@ -24,6 +24,7 @@ from reparam.evaluators.glu_constants import (
     GLU_V_STEP,
 )
 from reparam.evaluators.glu_errors import NURBS_ERRORS, GluInvalidValue, NurbsError
+from reparam.evaluators.nurbs_parts import recording
 from reparam.evaluators.nurbs_renderer import NurbsRenderer
 from reparam.evaluators.splines import Nurbs
 from reparam.evaluators.tessellations import Tessellation, read_float64, tessellate
@@ -221,3 +222,31 @@ def test_bad_weights() -> None:
     points[3, 2] = -1.0
     with pytest.raises(GluInvalidValue, match="weights above 0"):
         begun(points).gluEndSurface()
+
+
+def test_curved_trims_in_large_knots() -> None:
+    """libGLU draws nothing: its curves no longer join to 5e-6."""
+    low, high = 922.2892, 1224.9081
+    knots = [low, low, high, high]
+    middle, radius = (low + high) / 2.0, 0.3 * (high - low)
+    square = [[(0.0, 0.0, 0.0), (0.0, 1.0, 0.0)], [(1.0, 0.0, 0.0), (1.0, 1.0, 0.0)]]
+    nurb = NurbsRenderer()
+    nurb.gluBeginSurface()
+    nurb.gluNurbsSurface(knots, knots, square, GL_MAP2_VERTEX_3)
+    nurb.gluBeginTrim()
+    nurb.gluNurbsCurve(CIRCLE_KNOTS, circle(middle, middle, radius), GLU_MAP1_TRIM_3)
+    nurb.gluEndTrim()
+    nurb.gluEndSurface()
+    (surface,) = nurb.take()
+    assert surface.region is not None
+    assert surface.region.area() == pytest.approx(np.pi * radius**2, rel=1e-6)
+
+
+def test_chords_are_made_when_they_are_wanted(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Not for a picture by the built-in program, which needs none."""
+    surface = trimmed(circle(0.5, 0.5, 0.3))
+    monkeypatch.setattr("reparam.evaluators.trimmed.MOST_CELLS", 3)
+    drawn = recording(surface)
+    assert drawn.drawn
+    with pytest.raises(GluInvalidValue, match="at most 3 cells of a trimmed surface"):
+        _ = drawn.items

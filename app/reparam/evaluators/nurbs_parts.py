@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import chain
 
 import numpy as np
@@ -61,14 +62,13 @@ def parts(nurbs: Nurbs) -> list[Part]:
 def recording(*recorded: Nurbs, current: Current | None = None) -> Recording:
     """Curves and surfaces as what `Evaluators.draw` draws, with these current values."""
     current = current or Current()
-    items = [_items(parts(nurbs), current) for nurbs in recorded]
-    if not any(map(by_pixel, recorded)):
-        return Recording(tuple(chain(*items)))
-    untrimmed = [
-        _items(undecided(nurbs), current) if by_pixel(nurbs) else those
-        for nurbs, those in zip(recorded, items, strict=True)
-    ]
-    return Recording(tuple(chain(*items)), tuple(chain(*untrimmed)))
+
+    def calls(drawn: bool) -> tuple[Mesh | Collection, ...]:
+        found = [undecided(n) if drawn and by_pixel(n) else parts(n) for n in recorded]
+        return tuple(chain(*(_items(those, current) for those in found)))
+
+    late = partial(calls, drawn=False) if any(map(by_pixel, recorded)) else None
+    return Recording(calls(drawn=True), late)
 
 
 def by_pixel(nurbs: Nurbs) -> bool:

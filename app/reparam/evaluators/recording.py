@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import groupby
@@ -164,23 +164,29 @@ class Batch:
 class Recording:
     """A sequence of calls, kept: what a display list was. Drawn as often as one likes.
 
-    Where trimmed surfaces are among them, `items` has the triangles that the chords of the trims
-    leave of them, and `untrimmed` the same calls with those surfaces whole, which the built-in
-    program cuts off by the curves themselves; else it is empty.
+    `calls` is what the built-in program draws. Where trimmed surfaces are among them, whole there
+    since it cuts them off by the curves themselves, `chords` makes the same calls with the
+    triangles that the chords of the trims leave of them: for other programs, and to be read.
     """
 
-    items: tuple[Mesh | Collection, ...]
-    untrimmed: tuple[Mesh | Collection, ...] = ()
+    calls: tuple[Mesh | Collection, ...]
+    chords: Callable[[], tuple[Mesh | Collection, ...]] | None = None
+
+    @cached_property
+    def items(self) -> tuple[Mesh | Collection, ...]:
+        """The calls, with the triangles of trimmed surfaces: made when they are first wanted, for
+        that can take a thousand times as long as the frame."""
+        return self.calls if self.chords is None else self.chords()
 
     @cached_property
     def batches(self) -> tuple[Batch | Collection, ...]:
         """The items in as few draws as the order of the calls allows."""
-        return tuple(_grouped(self.items))
+        return self.drawn if self.chords is None else tuple(_grouped(self.items))
 
     @cached_property
     def drawn(self) -> tuple[Batch | Collection, ...]:
         """What the built-in program draws, in as few draws."""
-        return tuple(_grouped(self.untrimmed)) if self.untrimmed else self.batches
+        return tuple(_grouped(self.calls))
 
 
 def _grouped(items: tuple[Mesh | Collection, ...]) -> Iterator[Batch | Collection]:

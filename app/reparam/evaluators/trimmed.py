@@ -20,9 +20,12 @@ from ..geometry.trimming.triangulation import (
     trim_polygons,
 )
 from .constants import GL_LINE_STRIP, GL_LINES, GL_TRIANGLES
-from .glu_constants import GLU_FILL, GLU_NURBS_TESSELLATOR, GLU_OUTLINE_PATCH
+from .glu_constants import GLU_FILL, GLU_NURBS_TESSELLATOR, GLU_OUTLINE_PATCH, NAMES
+from .glu_errors import GluInvalidValue
 from .sampling import Steps
 from .splines import Nurbs
+
+MOST_CELLS = 1 << 20
 
 Place = tuple[int, int]
 Line = tuple[Point, Point]
@@ -33,10 +36,15 @@ def trimmed_pieces(nurbs: Nurbs, nu: Steps, nv: Steps) -> tuple[int, dict[Place,
     """GL_TRIANGLES, GL_LINES or GL_LINE_STRIP, and for each piece (s, t) their (u, v): (k, 2) each.
 
     As the display mode says: filled, the edges of the triangles, or the trims and the borders of
-    the pieces.
+    the pieces. Raises GluInvalidValue where memory would not have them all.
     """
     region, properties = nurbs.region, nurbs.properties
     assert region is not None
+    if (cells := float(nu.sum()) * float(nv.sum())) > MOST_CELLS:
+        raise GluInvalidValue(
+            f"{NAMES[properties.sampling_method]}: expected a tolerance or steps that ask for at "
+            f"most {MOST_CELLS} cells of a trimmed surface, found {cells:.3g}"
+        )
     (u_lines, u_piece), (v_lines, v_piece) = (
         _lines(nurbs.ends(axis), count) for axis, count in ((0, nu), (1, nv))
     )

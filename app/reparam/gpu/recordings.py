@@ -136,7 +136,7 @@ class Recordings:
         matrices = (projection, modelview)
         modes = (moderngl.TRIANGLES,)
         self.draw_built_in(layer.recording, *matrices, layer.light, texture, modes)
-        for item in layer.recording.batches:
+        for item in layer.recording.drawn:
             if isinstance(item, Batch):
                 self._stroke_batch(item, layer, camera, unit)
             else:
