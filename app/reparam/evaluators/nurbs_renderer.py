@@ -16,8 +16,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from numpy.typing import ArrayLike
-
 from . import glu_constants as k
 from .glu_arguments import curve_argument, pwl_argument, surface_argument
 from .glu_errors import (
@@ -32,7 +30,6 @@ from .glu_errors import (
     EndTrimOverdue,
     GeometryMissing,
     GluError,
-    GluInvalidEnum,
     ImproperTrimType,
     NurbsError,
     NurbsThenPwl,
@@ -42,11 +39,10 @@ from .glu_errors import (
 )
 from .glu_trims import check_trims
 from .nurbs_callbacks import call_back
-from .nurbs_properties import UNLOADED, Properties, View, changed, value_of
+from .nurbs_properties import View
+from .nurbs_settings import NurbsSettings
 from .splines import Nurbs, NurbsTrim, PwlTrim, Spline, TrimCurve
 from .tessellations import Read, read_float64, tessellate
-
-CALLBACKS = (k.GLU_NURBS_ERROR, *range(k.GLU_NURBS_BEGIN, k.GLU_NURBS_END_DATA + 1))
 
 
 @dataclass
@@ -63,7 +59,7 @@ class _Open:
     refused: bool = False  # a map was left out for its knots
 
 
-class NurbsRenderer:
+class NurbsRenderer(NurbsSettings):
     """A GLUnurbs object.
 
     `read` evaluates for the tessellator mode: `Recordings(painter).read` on the GPU, or by
@@ -77,12 +73,8 @@ class NurbsRenderer:
     def __init__(
         self, read: Read = read_float64, matrices: Callable[[], View] | None = None
     ) -> None:
-        self.properties = Properties()
+        super().__init__(matrices)
         self._read = read
-        self._matrices = matrices
-        self._view = UNLOADED
-        self._callbacks: dict[int, Callable[..., None]] = {}
-        self._data: Any = None
         self._surface: _Open | None = None
         self._curve: _Open | None = None
         self._trim: list[TrimCurve] | None = None
@@ -92,51 +84,6 @@ class NurbsRenderer:
         """The curves and surfaces that ended since the last time, to be drawn or read."""
         ended, self._ended = tuple(self._ended), []
         return ended
-
-    # Properties, matrices, callbacks ---------------------------------------------------------
-
-    def gluNurbsProperty(self, property: int, value: float) -> None:
-        """Raises GluInvalidEnum for an unknown property, GluInvalidValue for a bad value."""
-        try:
-            self.properties = changed(self.properties, property, value)
-        except GluError as error:
-            self._fail(error)
-
-    def gluGetNurbsProperty(self, property: int) -> float:
-        """The property's value. Raises GluInvalidEnum for an unknown one."""
-        return value_of(self.properties, property)
-
-    def gluLoadSamplingMatrices(
-        self, modelMatrix: ArrayLike, projMatrix: ArrayLike, viewport: ArrayLike
-    ) -> None:
-        """What pixels are measured by: 16 numbers each, as OpenGL has them, and four."""
-        self._view = View.load(modelMatrix, projMatrix, viewport)
-
-    def gluNurbsCallback(self, which: int, function: Callable[..., None] | None) -> None:
-        """Sets a callback; None takes it away. Raises GluInvalidEnum for an unknown one."""
-        if which not in CALLBACKS:
-            self._fail(
-                GluInvalidEnum(f"gluNurbsCallback: which: expected GLU_NURBS_..., found {which!r}")
-            )
-        elif function is None:
-            self._callbacks.pop(which, None)
-        else:
-            self._callbacks[which] = function
-
-    def gluNurbsCallbackData(self, userData: Any) -> None:
-        """What the GLU_NURBS_..._DATA callbacks get as their last argument."""
-        self._data = userData
-
-    def _fail(self, error: GluError) -> None:
-        callback = self._callbacks.get(k.GLU_NURBS_ERROR)
-        if callback is None:
-            raise error
-        callback(error.code)
-
-    def _current_view(self) -> View:
-        if self.properties.auto_load_matrix and self._matrices is not None:
-            return self._matrices()
-        return self._view
 
     # Surfaces --------------------------------------------------------------------------------
 

@@ -21,8 +21,9 @@ from .constants import PRIMITIVES, name_of
 from .errors import InvalidEnum, InvalidValue
 from .grids import Axis, Grid, Walk, grid_of
 from .maps import FILL, Array, Attribute
+from .phase import Vertices
 from .recording import HAVE_CURRENT, Collection, Mesh, Recording
-from .state import State, Vertices
+from .state import State
 
 MOST_POINTS = 1 << 26  # of one mesh
 
