@@ -47,6 +47,20 @@ def star(center: Sequence[float], radius: float, tips: int = 5, inner: float = 0
     return [points]
 
 
+def petals(count: int, bend: float, shift: float = 0.0) -> list[Loop]:
+    """Narrow loops from one point, sides bent; the last one begins so much too early."""
+    angle = 2.0 * np.pi / count * (np.arange(count)[:, None] + [0.1, 0.9])
+    angle[-1, 0] -= 2.0 * np.pi / count * shift
+    tips = 0.5 + 0.4 * np.stack([np.cos(angle), np.sin(angle)], -1)
+    middle = np.array([0.5, 0.5])
+    loops = []
+    for a, b in tips:
+        across = bend * np.array([-(b - a)[1], (b - a)[0]])
+        one, other = (middle + a) / 2.0 + across, (middle + b) / 2.0 + across
+        loops.append([bezier(middle, one, a), np.array([a, b]), bezier(b, other, middle)])
+    return loops
+
+
 def red_book() -> list[Loop]:
     """The loops of the OpenGL Programming Guide's trim.c."""
     curve = bezier((0.25, 0.5), (0.25, 0.75), (0.75, 0.75), (0.75, 0.5))

@@ -16,7 +16,7 @@ from reparam.geometry.trimming.lookup import (
     winding_number,
 )
 from reparam.geometry.trimming.pieces import on_border
-from trim_cases import CASES, SQUARE, Loop, circle, cusps, discs, region_of, reverse, star
+from trim_cases import CASES, SQUARE, Loop, circle, cusps, discs, petals, region_of, reverse, star
 
 TINY: list[Loop] = [star(np.array([0.3, 0.7]) + 0.002 * k, 9e-4, 9) for k in range(12)]
 
@@ -128,6 +128,21 @@ def test_more_pieces_in_one_place_than_a_node_can_tell_of(monkeypatch: pytest.Mo
     monkeypatch.setattr(packing, "MOST", 4)
     with pytest.raises(ValueError, match="expected up to 4 pieces in one place, found"):
         packing.pack(region.pieces, region.index)
+
+
+def test_a_thousand_pieces_in_one_place(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A cell that is too full to be divided, or the fullest of which are."""
+    region = trim_region(petals(130, 0.3))
+    points = np.random.default_rng(9).uniform(0.3, 0.7, (2000, 2))
+    monkeypatch.setattr(packing, "sides_of_grids", lambda _: [4])
+    for most in (0, 500):
+        monkeypatch.setattr(packing, "MOST_DIVIDED", most)
+        packed = packing.pack(region.pieces, region.index)
+        counts, _ = counts_and_windings(packed, np.arange(len(packed.nodes)))
+        assert counts.max() > 260
+        assert packed.divided == (most > 0)
+        wrong = winding_number(packed, points) != region.inside(*points.T)
+        assert (np.abs(region.signed_distance(*points[wrong].T)) < 1e-5).all()
 
 
 def test_crowded_cells_are_divided() -> None:

@@ -16,6 +16,7 @@ from reparam.geometry.trimming import (
     UnconnectedTrim,
     trim_region,
 )
+from reparam.geometry.trimming.contacts import parts_of, sectors
 from reparam.geometry.trimming.pieces import curve_points
 from trim_cases import (
     CASES,
@@ -27,6 +28,7 @@ from trim_cases import (
     circle,
     crescent,
     discs,
+    petals,
     red_book,
     region_of,
     reverse,
@@ -160,6 +162,49 @@ def test_loops_may_touch() -> None:
         [np.array([(0.5, 0), (1, 0), (1, 1), (0.5, 1), (0.5, 0)])],
     ]
     assert trim_region(halves).area() == pytest.approx(1.0, abs=1e-14)
+
+
+@pytest.mark.parametrize("bend", [0.0, 0.3])
+def test_many_loops_may_touch_in_one_point(bend: float) -> None:
+    """So many that pairs of their pieces must not be followed up one by one."""
+    loops = petals(150, bend)
+    area = sum(shoelace(polygon) for polygon in polygons(loops, 200))
+    assert trim_region(loops).area() == pytest.approx(area, abs=1e-5)
+    with pytest.raises(CrossingTrims, match=r"trim loop 148, piece 2: .* crossing loop 149, piece"):
+        trim_region(petals(150, bend, 0.5))
+
+
+def test_tangent_loops_are_told_from_crossing_ones() -> None:
+    """Circles within circles, all through one point."""
+    nested = [circle((0.05 + r, 0.5), r) for r in np.linspace(0.45, 0.1, 12)]
+    loops = [loop if k % 2 == 0 else reverse(loop) for k, loop in enumerate(nested)]
+    squares = np.linspace(0.45, 0.1, 12) ** 2 * np.pi
+    expected = squares[::2].sum() - squares[1::2].sum()
+    assert trim_region(loops).area() == pytest.approx(expected, abs=1e-12)
+    loops[5] = [piece + piece[:, 2:] * [0.0, 1e-3, 0.0] for piece in loops[5]]
+    with pytest.raises(CrossingTrims):
+        trim_region(loops)
+
+
+def test_parts_of_curves_and_where_they_lie() -> None:
+    random = np.random.default_rng(8)
+    curves = random.uniform(0.1, 1.0, (6, 5, 3))
+    span = np.sort(random.uniform(0.0, 1.0, (6, 2)), 1)
+    parts = parts_of(curves, span)
+    for share in (0.0, 0.3, 1.0):
+        expected = curve_points(curves, span[:, 0] + share * (span[:, 1] - span[:, 0]))
+        assert curve_points(parts, np.full(6, share)) == pytest.approx(expected, abs=1e-12)
+    pieces = region_of("blobs").pieces
+    direction, least, most = sectors(pieces)
+    number = np.arange(len(pieces))
+    for share in (0.02, 0.5, 0.98):
+        points = pieces.points(number, pieces.span @ [1.0 - share, share])
+        for side in (0, 1):
+            way = points - pieces.ends[:, side]
+            turn = np.arctan2(way[:, 1], way[:, 0]) - direction[:, side]
+            turn = np.remainder(turn + np.pi, 2.0 * np.pi) - np.pi
+            assert (turn > least[:, side] - 1e-7).all()
+            assert (turn < most[:, side] + 1e-7).all()
 
 
 def test_small_gaps_are_joined_and_points_dropped() -> None:

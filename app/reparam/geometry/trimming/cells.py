@@ -28,6 +28,7 @@ from .winding import WindingIndex, expand
 MARGIN = 0.25  # of a cell, on each side: pixels up to half a cell wide
 MANY = 16  # graphs in a leaf: it is divided
 DIVISION = 4  # into so many by so many
+MOST_DIVIDED = 1 << 14  # graphs in all the cells of a size that are divided: the fullest ones
 DEPTH = 5
 COARSEST = 16  # cells along a side of the coarsest grid
 EXACT = 256  # and of the finest: its lattice is that of float32
@@ -42,14 +43,12 @@ def cells_met(graphs: Graphs, side: int, margin: float) -> tuple[Indices, Indice
     Column by column for the flat ones, as they rise by no more than a cell in each, and row by
     row for the steep ones.
     """
-    x = graphs.x
-    first, last = _span_of_cells(x.min(1), x.max(1), side, margin)
+    first, last = _span_of_cells(*graphs.x_range, side, margin)
     number, major = expand(first, (last - first + 1).clip(0))
-    ends_x = graphs.x[number]
     bound = np.stack([major - margin, major + 1.0 + margin], -1) / side
-    bound = np.clip(bound, ends_x.min(1)[:, None], ends_x.max(1)[:, None])
-    values = np.stack([graphs.values(number, edge) for edge in bound.T], -1)
-    first, last = _span_of_cells(values.min(1), values.max(1), side, margin)
+    bound = np.clip(bound, *(each[number, None] for each in graphs.x_range))
+    values = [graphs.values(number, edge) for edge in bound.T]
+    first, last = _span_of_cells(np.minimum(*values), np.maximum(*values), side, margin)
     again, minor = expand(first, (last - first + 1).clip(0))
     number, major = number[again], major[again]
     flat = graphs.axis[number] == FLAT
@@ -124,7 +123,7 @@ def ray_crossings(graphs: Graphs, points: Array, margin: float) -> tuple[Mask, I
     start, end = graphs.ends[:, 0, 1], graphs.ends[:, 1, 1]
     steep = graphs.axis == STEEP
     along, across = np.where(steep, v, u), np.where(steep, u, v)
-    here = np.clip(along, x.min(1), x.max(1))
+    here = np.clip(along, *graphs.x_range)
     value = graphs.values(np.arange(len(graphs)), here)
     rising = (y[:, 1] > y[:, 0]) == (x[:, 1] > x[:, 0])
     met = np.where(steep, value > u, np.where(rising, value <= v, value > v))

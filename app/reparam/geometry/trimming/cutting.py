@@ -81,15 +81,15 @@ def stretches_in(
     What runs along the upper edge of a box of another axis than its own is not in it.
     """
     axis = graphs.axis[index]
-    x, y = graphs.x[index], graphs.y[index]
     steep = axis == STEEP
+    x_least, x_most = (each[index] for each in graphs.x_range)
+    y_least, y_most = (each[index] for each in graphs.y_range)
     (u_low, v_low), (u_high, v_high) = low[box].T, high[box].T
     x_low, x_high = np.where(steep, v_low, u_low), np.where(steep, v_high, u_high)
     y_low, y_high = np.where(steep, u_low, v_low), np.where(steep, u_high, v_high)
-    first, last = np.maximum(x.min(1), x_low), np.minimum(x.max(1), x_high)
-    met = (first < last) & (y.max(1) >= y_low) & (y.min(1) <= y_high)
-    met = np.flatnonzero(np.asarray(met))
-    index, box, x = index[met], box[met], x[met]
+    first, last = np.maximum(x_least, x_low), np.minimum(x_most, x_high)
+    met = np.flatnonzero((first < last) & (y_most >= y_low) & (y_least <= y_high))
+    index, box = index[met], box[met]
     first, last, y_low, y_high = first[met], last[met], y_low[met], y_high[met]
     at = np.stack([first, last])
     values = np.stack([graphs.values(index, first), graphs.values(index, last)])
@@ -101,10 +101,12 @@ def stretches_in(
             at[side, beyond] = graphs.solve(index[beyond], bound[beyond])
             values[side, beyond] = bound[beyond]
     level = values[0] == values[1]
-    within = (values.max(0) > y_low) & (values.min(0) < y_high) & (at[0] < at[1])
+    within = np.maximum(*values) > y_low
+    within &= (np.minimum(*values) < y_high) & (at[0] < at[1])
     within = within | (level & (values[0] >= y_low) & (values[0] < y_high))
     kept = np.flatnonzero(np.asarray(within))
-    turned = (x[kept, 0] > x[kept, 1])[:, None, None]
+    own = graphs.x[index[kept]]
+    turned = (own[:, 0] > own[:, 1])[:, None, None]
     ends = np.stack([at[:, kept].T, values[:, kept].T], -1)
     return Stretches(index[kept], box[kept], np.where(turned, ends[:, ::-1], ends))
 

@@ -64,6 +64,16 @@ class Graphs:
         return np.where((self.axis == STEEP)[:, None], self.ends[..., 0], self.ends[..., 1])
 
     @cached_property
+    def x_range(self) -> tuple[Array, Array]:
+        """From the least to the greatest x: (n,) each."""
+        return np.minimum(*self.x.T), np.maximum(*self.x.T)
+
+    @cached_property
+    def y_range(self) -> tuple[Array, Array]:
+        """From the least to the greatest y: (n,) each."""
+        return np.minimum(*self.y.T), np.maximum(*self.y.T)
+
+    @cached_property
     def bent(self) -> Mask:
         """Which are no straight lines: (n,)."""
         return np.asarray(self.bump.any(1))

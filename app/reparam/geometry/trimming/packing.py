@@ -13,6 +13,7 @@ from .cells import (
     DIVISION,
     MANY,
     MARGIN,
+    MOST_DIVIDED,
     PLACES,
     base_windings,
     cells_met,
@@ -142,7 +143,10 @@ class _Level:
         order = np.argsort(cut.box, kind="stable")
         self.cut, self.kind = cut.take(order), kind[order]
         self.counts = np.bincount(cut.box, minlength=len(self.low))
-        self.crowded = np.flatnonzero(self.counts > MANY)
+        crowded = np.flatnonzero(self.counts > MANY)
+        most_first = crowded[np.argsort(-self.counts[crowded], kind="stable")]
+        within = np.cumsum(self.counts[most_first]) <= MOST_DIVIDED
+        self.crowded = np.sort(most_first[within])
 
     def nodes(self, listed: int) -> Indices:
         """Nodes (n, 2), whose pieces are numbered from `listed`."""

@@ -12,18 +12,15 @@ loops alternate if the same winding number, 1 or 0, lies to the left of each of 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from .contacts import CONTACT, contacts
 from .errors import CrossingTrims, EmptyTrim, MisorientedTrims
-from .pieces import STRAIGHT, Array, Indices, Pieces
-from .winding import WindingIndex, area_integrals, expand
+from .pieces import Array, Indices, Pieces
+from .winding import WindingIndex, area_integrals
 
-CONTACT = 1e-7  # two pieces nearer than this meet, in the domain's unit square
 PROBE = 4e-6  # how far around a contact the winding numbers are looked at
 APART = 1e-9  # how far across their way branches must part, to look between them
 LEAST_AREA = 1e-13
-MOST_ENTRIES = 1 << 22
-BRANCHES = 32  # places where one pair of pieces may meet that are followed up
 
 
 def check_loops(pieces: Pieces, loops: int) -> bool:
@@ -66,19 +63,32 @@ def left_winding(index: WindingIndex, loops: int) -> Indices:
 
 
 def check_crossings(index: WindingIndex) -> None:
-    """CrossingTrims if two pieces cross, or run along each other in one direction."""
+    """CrossingTrims if two pieces cross, or run along each other in one direction.
+
+    All pieces that meet in one place are looked at together: the winding numbers between each two
+    of their branches that follow each other around it.
+    """
     pieces = index.pieces
     pair, t = contacts(pieces)
     if len(pair) == 0:
         return
-    probes = around(pieces, pair, t)
-    turns = index.winding(probes.reshape(-1, 2)).reshape(probes.shape[:-1])
-    crossing = np.flatnonzero(np.ptp(turns, axis=1) > 1)
-    if len(crossing) == 0:
+    center, place = places(pieces.points(pair[:, 0], t[:, 0]))
+    probes, owner, between = around(pieces, center, place, pair, t)
+    turns = index.winding(probes)
+    by_place = np.argsort(owner, kind="stable")
+    begin = np.searchsorted(owner[by_place], np.arange(len(center)))
+    turned = turns[by_place]
+    spread = np.maximum.reduceat(turned, begin) - np.minimum.reduceat(turned, begin)
+    crossed = np.flatnonzero(spread > 1)
+    if len(crossed) == 0:
         return
-    worst = crossing[0]
-    one, other = pair[worst]
-    u, v = pieces.points(pair[worst, :1], t[worst, :1])[0]
+    here = np.flatnonzero(owner == crossed[0])
+    least, most = (here[turns[here] == value] for value in (turns[here].min(), turns[here].max()))
+    rarer = min(most, least, key=len)
+    amid = rarer[between[rarer, 0] >= 0]
+    two = between[amid[0]] if len(amid) else pair[place == crossed[0]][0]
+    one, other = np.sort(two)
+    u, v = center[crossed[0]]
     raise CrossingTrims(
         int(pieces.loop[one]), int(pieces.source[one]),
         f"expected loops that do not cross, found it crossing loop {pieces.loop[other]}, piece "
@@ -86,122 +96,55 @@ def check_crossings(index: WindingIndex) -> None:
     )  # fmt: skip
 
 
-def around(pieces: Pieces, pair: Indices, t: Array) -> Array:
-    """Points around contacts (k, 2): on a circle, and amid the branches that leave it."""
-    center = pieces.points(pair[:, 0], t[:, 0])
+def places(points: Array) -> tuple[Array, Indices]:
+    """Points (k, 2) that are one place to within CONTACT: the places (m, 2), and of each point the
+    number of its place (k,)."""
+    number = np.zeros(len(points), dtype=np.intp)
+    for axis in (0, 1):
+        order = np.lexsort((points[:, axis], number))
+        fresh = np.diff(number[order], prepend=0) != 0
+        fresh |= np.diff(points[order, axis], prepend=points[order[0], axis]) > CONTACT
+        number[order] = np.cumsum(fresh)
+    _, first, number = np.unique(number, return_index=True, return_inverse=True)
+    return points[first], number
+
+
+def around(
+    pieces: Pieces, center: Array, place: Indices, pair: Indices, t: Array
+) -> tuple[Array, Indices, Indices]:
+    """Points (n, 2) around the places (m, 2) where pairs (k, 2) meet at t (k, 2): on a circle, and
+    amid the branches that leave it, one after the other. Also of which place they are (n,), and
+    between which pieces (n, 2), -1 on the circle."""
     angle = np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False) + 0.1234
-    circle = center[:, None] + PROBE * np.stack([np.cos(angle), np.sin(angle)], -1)
-    probes, branches = circle, []
-    for side in (0, 1):
-        speed = np.hypot(*pieces.velocities(pair[:, side], t[:, side]).T)
-        low, high = pieces.span[pair[:, side]].T
-        step = np.minimum(PROBE / np.maximum(speed, 1e-30), (high - low) / 4.0)
-        ahead = pieces.points(pair[:, side], np.minimum(t[:, side] + step, high))
-        behind = pieces.points(pair[:, side], np.maximum(t[:, side] - step, low))
-        branches.append((ahead, behind))
-    along = pieces.velocities(pair[:, 0], t[:, 0])
-    along /= np.maximum(np.hypot(*along.T), 1e-30)[:, None]
-    for a in branches[0]:
-        for b in branches[1]:
-            across = (a - b)[:, 0] * along[:, 1] - (a - b)[:, 1] * along[:, 0]
-            apart = np.abs(across)[:, None] > APART  # else amid is on the curves
-            amid = np.where(apart, (a + b) / 2.0, circle[:, 0])
-            probes = np.concatenate([probes, amid[:, None]], 1)
-    return probes
-
-
-def contacts(pieces: Pieces) -> tuple[Indices, Array]:
-    """Pairs (k, 2) of pieces that meet, other than end to end, and where: parameters (k, 2).
-
-    The end points of a monotone piece are the corners of its bounding box, so both pieces are
-    halved and the halves whose boxes meet are kept, until they are points. Where that are too
-    many, along curves that run together, those whose chords cross go first.
-    """
-    pair = candidate_pairs(pieces)
-    span = pieces.span[pair]  # (k, 2 of the pair, 2)
-    ends = pieces.ends[pair]
-    number = np.arange(len(pair))
-    for _ in range(64):
-        if len(number) == 0 or np.ptp(ends, axis=2).max() < CONTACT / 4.0:
-            break
-        middle = span.mean(-1)
-        joint = np.stack([pieces.points(pair[number, i], middle[:, i]) for i in (0, 1)], 1)
-        halves_span = np.stack(
-            [np.stack([span[..., 0], middle], -1), np.stack([middle, span[..., 1]], -1)], 1
-        )
-        halves_ends = np.stack(
-            [np.stack([ends[:, :, 0], joint], 2), np.stack([joint, ends[:, :, 1]], 2)], 1
-        )
-        one, other = np.repeat([0, 1], 2), np.tile([0, 1], 2)
-        span = np.stack([halves_span[:, one, 0], halves_span[:, other, 1]], 2).reshape(-1, 2, 2)
-        ends = np.stack([halves_ends[:, one, 0], halves_ends[:, other, 1]], 2)
-        ends = ends.reshape(-1, 2, 2, 2)
-        number = np.repeat(number, 4)
-        kept = np.flatnonzero(boxes_meet(ends))
-        kept = kept[np.lexsort((~chords_cross(ends[kept]), number[kept]))]
-        kept = kept[rank_within(number[kept]) < BRANCHES]
-        number, span, ends = number[kept], span[kept], ends[kept]
-    return pair[number], span.mean(-1)
-
-
-def boxes_meet(ends: Array) -> NDArray[np.bool_]:
-    """Whether the bounding boxes of pairs of monotone pieces (k, 2, 2, 2) come within CONTACT."""
-    low, high = ends.min(2), ends.max(2)
-    return np.asarray((low.max(1) <= high.min(1) + CONTACT).all(-1))
-
-
-def chords_cross(ends: Array) -> NDArray[np.bool_]:
-    """Whether the segments between the end points of pairs (k, 2, 2, 2) meet."""
-    sides = []
-    for one, other in ((ends[:, 0], ends[:, 1]), (ends[:, 1], ends[:, 0])):
-        along, to = one[:, 1] - one[:, 0], other - one[:, :1]
-        side = along[:, :1] * to[..., 1] - along[:, 1:] * to[..., 0]
-        sides.append(side[:, 0] * side[:, 1] <= 0.0)
-    return np.asarray(sides[0] & sides[1])
-
-
-def rank_within(number: Indices) -> Indices:
-    """0, 1, 2 ... within each run of equal numbers."""
-    fresh = np.ones(len(number), dtype=bool)
-    fresh[1:] = number[1:] != number[:-1]
-    begin = np.flatnonzero(fresh)
-    length = np.diff(np.append(begin, len(number)))
-    return np.arange(len(number)) - np.repeat(begin, length)
-
-
-def candidate_pairs(pieces: Pieces) -> Indices:
-    """Pairs (k, 2) whose boxes meet, by a grid; without neighbours that only meet end to end."""
-    low, high = pieces.ends.min(1), pieces.ends.max(1)
-    corner, extent = low.min(0), np.maximum(np.ptp(np.concatenate([low, high]), axis=0), 1e-30)
-    cells = int(np.clip(np.sqrt(len(pieces)), 1, 256))
-    while True:
-        first = np.clip((low - CONTACT - corner) / extent * cells, 0, cells - 1).astype(np.intp)
-        last = np.clip((high + CONTACT - corner) / extent * cells, 0, cells - 1).astype(np.intp)
-        across = last - first + 1
-        if cells == 1 or across.prod(1).sum() <= MOST_ENTRIES:
-            break
-        cells //= 2
-    number, place = expand(np.zeros(len(pieces), dtype=np.intp), across.prod(1))
-    column = first[number, 0] + place % across[number, 0]
-    cell = (first[number, 1] + place // across[number, 0]) * cells + column
-    by_cell = np.lexsort((number, cell))
-    cell, number = cell[by_cell], number[by_cell]
-    pairs = [np.empty((0, 2), dtype=np.intp)]
-    for distance in range(1, len(cell)):
-        together = np.flatnonzero(cell[distance:] == cell[:-distance])
-        if len(together) == 0:
-            break
-        found = np.stack([number[together], number[together + distance]], -1)
-        pairs.append(found[boxes_meet(pieces.ends[found])])
-    pair = np.unique(np.concatenate(pairs), axis=0)
-    return pair[~_end_to_end(pieces, pair)]
-
-
-def _end_to_end(pieces: Pieces, pair: Indices) -> NDArray[np.bool_]:
-    """Neighbours that cannot meet again: both straight, or one going on in u or v as the other."""
-    one, other = pieces.ends[pair[:, 0]], pieces.ends[pair[:, 1]]
-    follows = (one[:, 1] == other[:, 0]).all(-1) | (other[:, 1] == one[:, 0]).all(-1)
-    straight = (pieces.table[pair] == STRAIGHT).all(-1)
-    goes_on = ((one[:, 1] - one[:, 0]) * (other[:, 1] - other[:, 0]) > 0.0).any(-1)
-    twice = (one[:, 1] == other[:, 0]).all(-1) & (other[:, 1] == one[:, 0]).all(-1)
-    return np.asarray(follows & (straight | goes_on & ~twice))
+    circle = PROBE * np.stack([np.cos(angle), np.sin(angle)], -1)
+    rim = (center[:, None] + circle).reshape(-1, 2)
+    member = np.stack([np.repeat(place, 2), pair.ravel()], -1)
+    members, first = np.unique(member, axis=0, return_index=True)
+    (at, piece), t = members.T, t.ravel()[first]
+    low, high = pieces.span[piece].T
+    speed = np.hypot(*pieces.velocities(piece, t).T)
+    step = np.minimum(PROBE / np.maximum(speed, 1e-30), (high - low) / 4.0)
+    tips = [pieces.points(piece, np.clip(t + way, low, high)) for way in (-step, step)]
+    at, piece = np.tile(at, 2), np.tile(piece, 2)
+    way = np.concatenate(tips) - center[at]
+    length = np.hypot(*way.T)
+    leaving = length > CONTACT
+    at, piece, way, length = at[leaving], piece[leaving], way[leaving], length[leaving]
+    turn = np.arctan2(way[:, 1], way[:, 0])
+    order = np.lexsort((turn, at))
+    at, piece, way, length, turn = at[order], piece[order], way[order], length[order], turn[order]
+    begin = np.searchsorted(at, at)
+    last = np.append(at[1:] != at[:-1], True)[: len(at)]
+    after = np.where(last, begin, np.arange(len(at)) + 1)
+    gap = turn[after] - turn + np.where(last, 2.0 * np.pi, 0.0)
+    amid = PROBE * np.stack([np.cos(turn + gap / 2.0), np.sin(turn + gap / 2.0)], -1)
+    short = np.minimum(length, length[after])
+    thin = (way / length[:, None] + way[after] / length[after, None]) * short[:, None] / 2.0
+    wide = gap > 0.5
+    amid = np.where(wide[:, None], amid, thin)
+    kept = np.flatnonzero(wide | (short * gap > APART))  # else amid is on the curves
+    probes = np.concatenate([rim, center[at[kept]] + amid[kept]])
+    owner = np.concatenate([np.repeat(np.arange(len(center)), len(circle)), at[kept]])
+    between = np.full((len(probes), 2), -1)
+    between[len(rim) :] = np.stack([piece, piece[after]], -1)[kept]
+    return probes, owner, between
