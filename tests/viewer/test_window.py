@@ -28,6 +28,7 @@ from reparam.snapshot import Studio
 from reparam.subject import Subject, open_subject
 from reparam.viewer.keys import KEYS
 from reparam.viewer.panel import WIDEST
+from reparam.viewer.state import FIELD_OF_VIEW
 
 HERE = Path(__file__).parent
 
@@ -146,6 +147,8 @@ def test_every_key_of_the_table(window: Window, screen: Screen, studio: Studio) 
     press("undo", "ctrl+z", "undone: shading", shading=open_subject("fig5").value("shading"))
     press("toggle_net", "n", "net = on", net=True)
     press("toggle_wireframe", "w", "wireframe = on", wireframe=True)
+    press("toggle_perspective", "o", "perspective = 40", perspective=FIELD_OF_VIEW)
+    press("toggle_perspective", "o", "perspective = 0", perspective=0.0)
     press("toggle_tolerance", "a", "tolerance = 0.5", tolerance=0.5)
     press("toggle_tolerance", "a", "tolerance = 0", tolerance=0.0)
     press("next_change", "p", "has no change")
