@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 from .files.outlines import ascent_and_descent, outlines, text_width
 from .files.vector import Drawing, Group, Raster, Shape
 from .gpu.arrangement import UNITS, Panel, arrange
+from .gpu.labels import Style
 from .gpu.margins import draw_caption, draw_label, draw_margins
 from .line_paths import LinePaths
 from .scenes import palette
 from .scenes.layers import (
-    Color,
     ControlNet,
     Figure,
     Handles,
@@ -117,17 +117,15 @@ class _Outlines:
         text: str,
         at: tuple[float, float],
         viewport: tuple[int, int],  # noqa: ARG002
-        size: float,
-        color: Color,
-        anchor: tuple[float, float] = (0.5, 0.5),
-        italic: bool = False,
-        widest: float = float("inf"),
+        style: Style,
     ) -> None:
-        """One line with `anchor` of its box at `at`; set smaller where wider than `widest`."""
-        size *= min(1.0, widest / max(text_width(text, size, italic), 1e-9))
+        """One line at `at`."""
+        italic = style.italic
+        room = style.widest / max(text_width(text, style.size, italic), 1e-9)
+        size = style.size * min(1.0, room)
         ascent, descent = ascent_and_descent(size, italic)
-        left = at[0] - anchor[0] * text_width(text, size, italic)
-        base = at[1] - anchor[1] * (ascent + descent) + descent
+        left = at[0] - style.anchor[0] * text_width(text, size, italic)
+        base = at[1] - style.anchor[1] * (ascent + descent) + descent
         pieces = outlines(text, size, italic, np.array([left, base]))
         if pieces:
-            self.shapes.append(Shape(pieces, color, words=text))
+            self.shapes.append(Shape(pieces, style.color, words=text))

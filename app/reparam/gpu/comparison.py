@@ -9,7 +9,7 @@ import moderngl
 import numpy as np
 
 from ..scenes import palette
-from .labels import SMALLEST, measure
+from .labels import SMALLEST, Style, measure
 from .targets import Target
 
 if TYPE_CHECKING:
@@ -107,4 +107,4 @@ def _draw_tag(
     bottom, high = region.bottom + region.height - 1.9 * pixels, 1.5 * pixels
     painter.labels.box(left - gap / 2, bottom, width + gap, high, size, TAG_GROUND)
     at = (left, bottom + high / 2)
-    painter.labels.text(text, at, size, pixels, palette.INK, anchor=(0.0, 0.5), widest=room)
+    painter.labels.text(text, at, size, Style(pixels, palette.INK, anchor=(0.0, 0.5), widest=room))

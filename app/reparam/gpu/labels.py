@@ -17,6 +17,18 @@ SMALLEST = 6  # pixels; below, text is not readable and not drawn
 
 
 @dataclass(frozen=True)
+class Style:
+    """How a line of text is set: its size and its colour; which point of its box comes to where it
+    stands (0..1, y up); and set smaller where it is wider than `widest`. In pixels."""
+
+    size: float
+    color: Color
+    anchor: tuple[float, float] = (0.5, 0.5)
+    italic: bool = False
+    widest: float = float("inf")
+
+
+@dataclass(frozen=True)
 class Text:
     """A line of text on the GPU: its coverage, one texel a pixel."""
 
@@ -36,25 +48,20 @@ class Labels:
         self._corners = ctx.buffer(np.array([0, 0, 0, 1, 1, 0, 1, 1], np.float32).tobytes())
 
     def text(
-        self,
-        text: str,
-        at: tuple[float, float],
-        viewport: tuple[int, int],
-        size: float,
-        color: Color,
-        anchor: tuple[float, float] = (0.5, 0.5),
-        italic: bool = False,
-        widest: float = float("inf"),
+        self, text: str, at: tuple[float, float], viewport: tuple[int, int], style: Style
     ) -> None:
-        """One line with `anchor` of its box at `at`; set smaller where wider than `widest`."""
-        width = measure(text, round(size), italic)
-        pixels = int(size * min(1.0, widest / width)) if width > widest else round(size)
+        """One line at `at`."""
+        pixels = round(style.size)
+        width = measure(text, pixels, style.italic)
+        if width > style.widest:
+            pixels = int(style.size * style.widest / width)
         if pixels < SMALLEST or not text:
             return
-        line = self._set(text, pixels, italic)
-        left = round(at[0] - anchor[0] * line.width)
-        bottom = round(at[1] - anchor[1] * line.height)
-        self._draw(line.texture, (left, bottom, line.width, line.height), viewport, (*color, 1.0))
+        line = self._set(text, pixels, style.italic)
+        left = round(at[0] - style.anchor[0] * line.width)
+        bottom = round(at[1] - style.anchor[1] * line.height)
+        box = (left, bottom, line.width, line.height)
+        self._draw(line.texture, box, viewport, (*style.color, 1.0))
 
     def box(
         self,

@@ -18,9 +18,9 @@ from typing import Protocol
 import numpy as np
 
 from ..scenes import palette
-from ..scenes.layers import Color, Label
+from ..scenes.layers import Label
 from .arrangement import CAPTION_LINE, PADDING, Panel
-from .labels import measure
+from .labels import Style, measure
 from .region import NOTE_LINE, TITLE_LINE
 
 CAPTION_SIZE = 17.0  # figure units, as all here
@@ -34,17 +34,9 @@ class Words(Protocol):
     """What sets lines of text: Labels on the GPU, or outlines in a file of vectors."""
 
     def text(
-        self,
-        text: str,
-        at: tuple[float, float],
-        viewport: tuple[int, int],
-        size: float,
-        color: Color,
-        anchor: tuple[float, float] = (0.5, 0.5),
-        italic: bool = False,
-        widest: float = float("inf"),
+        self, text: str, at: tuple[float, float], viewport: tuple[int, int], style: Style
     ) -> None:
-        """One line with `anchor` of its box at `at`; set smaller where wider than `widest`."""
+        """One line at `at`."""
         ...
 
 
@@ -58,17 +50,15 @@ def draw_label(
         float(x) + region.left + label.offset[0] * unit,
         float(y) + region.bottom + label.offset[1] * unit,
     )
-    words.text(
-        label.text, at, size, label.size * unit, label.color, label.anchor, label.italic,
-        widest=0.96 * region.width,
-    )  # fmt: skip
+    em, widest = label.size * unit, 0.96 * region.width
+    words.text(label.text, at, size, Style(em, label.color, label.anchor, label.italic, widest))
 
 
 def draw_caption(words: Words, lines: Sequence[str], size: tuple[int, int], unit: float) -> None:
     """The lines beneath the whole picture."""
     for i, line in enumerate(reversed(lines)):
         at = (size[0] / 2, (PADDING + (i + 0.5) * CAPTION_LINE) * unit)
-        words.text(line, at, size, CAPTION_SIZE * unit, palette.INK, widest=0.96 * size[0])
+        words.text(line, at, size, Style(CAPTION_SIZE * unit, palette.INK, widest=0.96 * size[0]))
 
 
 def draw_margins(words: Words, panels: Sequence[Panel], size: tuple[int, int], unit: float) -> None:
@@ -77,10 +67,8 @@ def draw_margins(words: Words, panels: Sequence[Panel], size: tuple[int, int], u
         region = panel.region
         middle = region.left + region.width / 2
         top = region.bottom + region.height + TITLE_LINE / 2 * unit
-        words.text(
-            panel.space.title, (middle, top), size, TITLE_SIZE * unit, palette.INK,
-            widest=0.96 * region.width,
-        )  # fmt: skip
+        style = Style(TITLE_SIZE * unit, palette.INK, widest=0.96 * region.width)
+        words.text(panel.space.title, (middle, top), size, style)
     em = note_size(panels, unit)
     for panel in panels:
         region = panel.region
@@ -88,7 +76,7 @@ def draw_margins(words: Words, panels: Sequence[Panel], size: tuple[int, int], u
         for row, (name, value) in enumerate(panel.space.notes):
             y = region.bottom - (row + 0.5) * NOTE_LINE * unit
             for text, x, anchor in ((name, divide - GAP * unit / 2, 1.0), (value, divide, 0.0)):
-                words.text(text, (x, y), size, em, palette.INK, anchor=(anchor, 0.5))
+                words.text(text, (x, y), size, Style(em, palette.INK, anchor=(anchor, 0.5)))
 
 
 def note_size(panels: Sequence[Panel], unit: float) -> float:

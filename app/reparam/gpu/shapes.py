@@ -24,7 +24,7 @@ from ..scenes.shading import (
 )
 from .arrangement import Panel
 from .kept import Kept
-from .labels import Labels, measure
+from .labels import Labels, Style, measure
 from .region import TITLE_LINE
 
 BAR, STEPS = 110.0, 33  # length of the bar of colours, in figure units, and its pieces
@@ -129,7 +129,7 @@ def draw_legend(
             y = top - (number + 0.5) * LINE * unit
             _box(labels, left, y, SWATCH * unit, kind.color, size, SWATCH * unit)
             at = (left + (SWATCH + 5.0) * unit, y)
-            labels.text(kind.words, at, size, WORDS * unit, palette.INK, (0.0, 0.5))
+            labels.text(kind.words, at, size, Style(WORDS * unit, palette.INK, (0.0, 0.5)))
 
 
 def _draw_bar(
@@ -146,7 +146,8 @@ def _draw_bar(
     width = max(BAR * unit, measure(words, round(WORDS * unit))) + 2 * VEIL * unit
     veil = (left - VEIL * unit, top - 3 * LINE * unit, width, 3 * LINE * unit)
     labels.box(*veil, size, (1.0, 1.0, 1.0, 0.75))  # words stay legible over a surface
-    labels.text(words, (left, top - LINE / 2 * unit), size, WORDS * unit, palette.INK, (0.0, 0.5))
+    style = Style(WORDS * unit, palette.INK, (0.0, 0.5))
+    labels.text(words, (left, top - LINE / 2 * unit), size, style)
     y = top - 1.5 * LINE * unit
     first, last = marks[0][0], marks[-1][0]
     edges = np.round(np.linspace(left, left + BAR * unit, len(colors) + 1))
@@ -155,7 +156,7 @@ def _draw_bar(
     for value, text in marks:
         at = (value - first) / (last - first)
         place = (left + at * BAR * unit, y - LINE * unit)
-        labels.text(text, place, size, WORDS * unit, palette.INK, (at, 0.5))
+        labels.text(text, place, size, Style(WORDS * unit, palette.INK, (at, 0.5)))
 
 
 def _box(

@@ -6,7 +6,7 @@ from dataclasses import replace
 from math import ceil, floor
 
 from ..gpu.arrangement import UNITS, Panel
-from ..gpu.labels import measure
+from ..gpu.labels import Style, measure
 from ..scenes.layers import Handles
 from .hand import Grip, Hand, model_units, snap_step
 from .overlay import GROUND, INK, Sheet
@@ -44,7 +44,7 @@ def draw_grip(sheet: Sheet, hand: Hand, grip: Grip) -> None:
     bottom = y + gap if y + gap + height < size[1] else y - gap - height
     labels.box(left, bottom, width, height, size, GROUND)
     at = (left + em / 2, bottom + height / 2)
-    labels.text(text, at, size, em, INK, anchor=(0.0, 0.5))
+    labels.text(text, at, size, Style(em, INK, anchor=(0.0, 0.5)))
 
 
 def draw_grid(sheet: Sheet, panel: Panel) -> None:

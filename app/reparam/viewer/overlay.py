@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..gpu.labels import SMALLEST, measure
+from ..gpu.labels import SMALLEST, Style, measure
 from ..gpu.painter import Painter
 from .keys import keys_groups
 from .prompt import Prompt
@@ -43,10 +43,7 @@ def draw_notice(sheet: Sheet, text: str) -> None:
         text,
         (em, size[1] - NOTICE / 2 * em),
         size,
-        em,
-        INK,
-        anchor=(0.0, 0.5),
-        widest=size[0] - 2 * em,
+        Style(em, INK, anchor=(0.0, 0.5), widest=size[0] - 2 * em),
     )
 
 
@@ -62,7 +59,7 @@ def draw_prompt(sheet: Sheet, prompt: Prompt) -> None:
     for i, (row, share, color) in enumerate(rows):
         at = (left + 1.5 * em, top - (1.1 + 1.5 * i) * em)
         room = width - 3 * em
-        labels.text(row, at, size, share * em, color, anchor=(0.0, 0.5), widest=room)
+        labels.text(row, at, size, Style(share * em, color, anchor=(0.0, 0.5), widest=room))
 
 
 def draw_progress(sheet: Sheet, name: str, share: float) -> None:
@@ -75,7 +72,7 @@ def draw_progress(sheet: Sheet, name: str, share: float) -> None:
     labels.box(0, size[1] - height, width, height, size, HELP_GROUND)
     labels.box(0, size[1] - height, share * width, 0.22 * em, size, (*HEADING, 1.0))
     at = (em, size[1] - height / 2)
-    labels.text(text, at, size, em, INK, anchor=(0.0, 0.5), widest=size[0] - 2 * em)
+    labels.text(text, at, size, Style(em, INK, anchor=(0.0, 0.5), widest=size[0] - 2 * em))
 
 
 def draw_help(sheet: Sheet) -> None:
@@ -95,12 +92,12 @@ def draw_help(sheet: Sheet) -> None:
     for column in columns:
         y = top - 1.4 * em
         for title, rows in column:
-            labels.text(title, (x, y), size, em, HEADING, anchor=(0.0, 0.5))
+            labels.text(title, (x, y), size, Style(em, HEADING, anchor=(0.0, 0.5)))
             y -= 1.4 * em
             for names, does in rows:
-                labels.text(names, (x, y), size, em, INK, anchor=(0.0, 0.5))
+                labels.text(names, (x, y), size, Style(em, INK, anchor=(0.0, 0.5)))
                 place = (x + _names_width(column, em), y)
-                labels.text(does, place, size, em, INK, anchor=(0.0, 0.5))
+                labels.text(does, place, size, Style(em, INK, anchor=(0.0, 0.5)))
                 y -= 1.4 * em
             y -= 0.84 * em
         x += _column_width(column, em) + 2.5 * em
