@@ -26,8 +26,9 @@ from reparam.geometry.bernstein import bernstein
 from reparam.geometry.net import Array
 from reparam.gpu.accuracy import Drawn, deviations
 from reparam.gpu.adaptive import Tolerance
+from reparam.gpu.looks import Look
 from reparam.gpu.meshes import triangle_indices
-from reparam.gpu.surfaces import Fine, Look
+from reparam.gpu.surfaces import Fine
 from reparam.scenes.layers import Patches
 from reparam.snapshot import Studio
 
@@ -150,7 +151,7 @@ class Edited:
     def nothing(self) -> None:
         """The peer's frame without what is to be evaluated."""
         layer = Patches(self.net, color=COLOR)
-        self.surfaces.set_common(self.program, layer, FROM_ABOVE, Look(COLOR))
+        self.surfaces.looks.set(self.program, layer, FROM_ABOVE, Look(COLOR))
         self.program.ready()
         self.mesh.render()
 

@@ -14,8 +14,8 @@ from reparam.bench import Rows, Skipped, interleave
 from reparam.geometry.camera import Camera
 from reparam.geometry.evaluate import evaluate, grid_parameters
 from reparam.geometry.normal import surface_normal
+from reparam.gpu.looks import Look
 from reparam.gpu.meshes import triangle_indices
-from reparam.gpu.surfaces import Look
 from reparam.scenes.layers import Patches, Picture, Texture
 from reparam.snapshot import Studio
 
@@ -42,7 +42,7 @@ class StaticMesh:
         vertices = np.concatenate(columns, -1).astype(np.float32)
         self._layer, self._level, self._surfaces = layer, level, painter.surfaces
         self._look = Look(layer.color)
-        defines = painter.surfaces.defines(layer, self._look)
+        defines = painter.surfaces.looks.defines(layer, self._look)
         self._program = painter.programs.get("mesh.vert", "patch.frag", defines=defines)
         indices = triangle_indices(level, len(layer.net))
         self._mesh = ctx.vertex_array(
@@ -53,7 +53,7 @@ class StaticMesh:
 
     def draw(self, camera: Camera) -> None:
         """As `Surfaces.draw` does, but for the evaluation."""
-        self._surfaces.set_common(self._program, self._layer, camera, self._look)
+        self._surfaces.looks.set(self._program, self._layer, camera, self._look)
         self._program.set(level=self._level)
         self._program.ready()
         self._mesh.render()
