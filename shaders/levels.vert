@@ -13,10 +13,18 @@ uniform mat4 clip_from_model;
 uniform vec2 half_size;    // of the viewport, in pixels
 uniform float tolerance;   // pixels
 uniform sampler2D position_net;
+#ifdef GENERIC_DEGREE
 uniform ivec2 position_degree;
+#else
+const ivec2 position_degree = ivec2(POSITION_DEGREE_U, POSITION_DEGREE_V);
+#endif
 #ifdef TEXTURED
 uniform sampler2D texture_net;
+#ifdef GENERIC_DEGREE
 uniform ivec2 texture_degree;
+#else
+const ivec2 texture_degree = ivec2(TEXTURE_DEGREE_U, TEXTURE_DEGREE_V);
+#endif
 uniform int texture_stride;   // 0: one map shared by all patches
 #endif
 

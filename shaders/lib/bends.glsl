@@ -35,35 +35,47 @@ Bends flat_bends() {
                  vec3(0.0), vec3(0.0), vec2(0.0), vec2(0.0), 1.0, 0.0, vec2(0.0), false);
 }
 
-// Control point `at`, number i along a direction in which the net has that degree and stride.
-vec4 second_derivative(sampler2D net, int at, int i, int degree, int stride) {
-    vec4 sum = vec4(0.0);
-    int rest = degree - i;
-    for (int k = max(i - 2, 0); k <= min(i, degree - 2); ++k) {
-        int weight = k == i - 2 ? i * (i - 1) : k == i - 1 ? 2 * i * rest : rest * (rest - 1);
-        if (weight == 0)
-            continue;
-        int first = at + (k - i) * stride;
-        vec4 middle = control_point(net, first + stride);
-        sum += float(weight) * ((control_point(net, first) - middle)
-                                - (middle - control_point(net, first + 2 * stride)));
-    }
-    return sum;
+// A row of the net, transformed, and d/du and d2/du2 there, raised to the degree of the net.
+vec4 points[MAX_ORDER], slopes_of_row[MAX_ORDER], bends_of_row[MAX_ORDER];
+
+// From two differences on either side of control point k of 0 ... degree.
+vec4 raised(vec4 before_last, vec4 before, vec4 after, vec4 after_next, int k, int degree) {
+    int rest = degree - k;
+    return float(k * (k - 1)) * (before - before_last) + float(2 * k * rest) * (after - before)
+        + float(rest * (rest - 1)) * (after_next - after);
 }
 
-vec4 mixed_derivative(sampler2D net, int at, ivec2 i, ivec2 degree) {
-    vec4 sum = vec4(0.0);
-    int width = degree.y + 1;
-    ivec2 rest = degree - i;
-    for (int k = max(i.x - 1, 0); k <= min(i.x, degree.x - 1); ++k)
-        for (int l = max(i.y - 1, 0); l <= min(i.y, degree.y - 1); ++l) {
-            int weight = (k < i.x ? i.x : rest.x) * (l < i.y ? i.y : rest.y);
-            int first = at + (k - i.x) * width + l - i.y;
-            sum += float(weight)
-                * ((control_point(net, first) - control_point(net, first + 1))
-                   - (control_point(net, first + width) - control_point(net, first + width + 1)));
-        }
-    return sum;
+void read_row(sampler2D net, int first, int i, ivec2 degree, mat4 transform) {
+    int width = degree.y + 1, rest = degree.x - i;
+    for (int j = 0; j <= degree.y; ++j) {
+        int at = first + i * width + j;
+        int back = at - min(i, 1) * width, forth = at + min(rest, 1) * width;
+        vec4 here = control_point(net, at), last = control_point(net, back),
+             next = control_point(net, forth);
+        vec4 before = here - last, after = next - here;
+        vec4 before_last = last - control_point(net, at - min(i, 2) * width);
+        vec4 after_next = control_point(net, at + min(rest, 2) * width) - next;
+        points[j] = transform * here;
+        slopes_of_row[j] = transform * (float(i) * before + float(rest) * after);
+        bends_of_row[j] =
+            transform * raised(before_last, before, after, after_next, i, degree.x);
+    }
+}
+
+// d2/dv2 at control point j of the row.
+vec4 second_derivative(int j, int degree) {
+    int back = j - min(j, 1), forth = j + min(degree - j, 1);
+    vec4 before = points[j] - points[back], after = points[forth] - points[j];
+    vec4 before_last = points[back] - points[j - min(j, 2)];
+    vec4 after_next = points[j + min(degree - j, 2)] - points[forth];
+    return raised(before_last, before, after, after_next, j, degree);
+}
+
+// d2/dudv there.
+vec4 mixed_derivative(int j, int degree) {
+    vec4 before = slopes_of_row[j] - slopes_of_row[j - min(j, 1)];
+    vec4 after = slopes_of_row[j + min(degree - j, 1)] - slopes_of_row[j];
+    return float(j) * before + float(degree - j) * after;
 }
 
 // The first derivative.
@@ -111,12 +123,13 @@ Bends bends(sampler2D net, int patch_index, ivec2 degree, mat4 transform, vec2 s
                         -(low + high) * 0.5 * scale, 0.0, 1.0) * transform;
     vec2 reach = (high - low) * 0.5 * scale, none = vec2(0.0);
     vec2 owned = vec2(0.0), whole = vec2(0.0), least_of_two = vec2(1e30), most_of_two = vec2(-1e30);
-    for (int i = 0; i <= degree.x; ++i)
+    for (int i = 0; i <= degree.x; ++i) {
+        read_row(net, first, i, degree, centred);
         for (int j = 0; j <= degree.y; ++j) {
             int at = first + i * width + j;
-            vec4 p = centred * control_point(net, at);
-            vec4 uu = centred * second_derivative(net, at, i, degree.x, width);
-            vec4 vv = centred * second_derivative(net, at, j, degree.y, 1);
+            vec4 p = points[j];
+            vec4 uu = bends_of_row[j];
+            vec4 vv = second_derivative(j, degree.y);
             vec3 a = relative(uu, p, false), c = relative(vv, p, false);
             whole = max(whole, vec2(largest(a, reach), largest(c, reach)));
             least_of_two = min(least_of_two, vec2(a.z, c.z));
@@ -128,10 +141,11 @@ Bends bends(sampler2D net, int patch_index, ivec2 degree, mat4 transform, vec2 s
                 s.leg.x = max(s.leg.x, length(next.xy / next.w - p.xy / p.w));
             }
             if (j < degree.y) {
-                vec4 next = centred * control_point(net, at + 1);
+                vec4 next = points[j + 1];
                 s.leg.y = max(s.leg.y, length(next.xy / next.w - p.xy / p.w));
             }
         }
+    }
     s.leg *= vec2(degree);
     vec2 with_spread = owned + 0.25 * s.extent * (most_of_two - least_of_two);
     bool own = (with_spread.x + TINY) * (with_spread.y + TINY)
@@ -142,13 +156,13 @@ Bends bends(sampler2D net, int patch_index, ivec2 degree, mat4 transform, vec2 s
         reach = none;
     s.slopes *= likely_slope(s.uu, s.vv);
     vec3 least_turn = vec3(1e30), most_turn = vec3(-1e30);
-    for (int i = 0; i <= degree.x; ++i)
+    for (int i = 0; i <= degree.x; ++i) {
+        read_row(net, first, i, degree, centred);
         for (int j = 0; j <= degree.y; ++j) {
-            int at = first + i * width + j;
-            vec4 p = centred * control_point(net, at);
-            vec3 a = relative(centred * second_derivative(net, at, i, degree.x, width), p, own);
-            vec3 b = relative(centred * mixed_derivative(net, at, ivec2(i, j), degree), p, own);
-            vec3 c = relative(centred * second_derivative(net, at, j, degree.y, 1), p, own);
+            vec4 p = points[j];
+            vec3 a = relative(bends_of_row[j], p, own);
+            vec3 b = relative(mixed_derivative(j, degree.y), p, own);
+            vec3 c = relative(second_derivative(j, degree.y), p, own);
             s.uv = max(s.uv, largest(b, reach));
             least_turn = min(least_turn, vec3(a.z, b.z, c.z));
             most_turn = max(most_turn, vec3(a.z, b.z, c.z));
@@ -169,6 +183,7 @@ Bends bends(sampler2D net, int patch_index, ivec2 degree, mat4 transform, vec2 s
                 b = -b;
             }
         }
+    }
     s.weight = max(most_turn, -least_turn);
     int rational = most > least ? degree.x : -1;
     for (int i = 0; i <= rational; ++i)

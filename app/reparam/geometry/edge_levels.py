@@ -68,21 +68,29 @@ def fitted(
 
     From n steps to e of the edge a side goes back by up to (n - gcd(n, e)) / (n e).
     """
-    wanted = levels[:, [1, 0, 1, 0]]
+    wanted, numbers = levels[:, [1, 0, 1, 0]], numbers.ravel()
+    strips = (levels == 1).any(-1)
     while True:
-        strips, own = edges[:, [2, 3, 0, 1]], wanted.copy()
-        in_v = levels[:, 0] == 1
-        in_u = ~in_v & (levels[:, 1] == 1)
-        own[in_v, ::2] = np.minimum(edges, strips)[in_v, ::2]
-        own[in_u, 1::2] = np.minimum(edges, strips)[in_u, 1::2]
-        short = 2 * wanted * (own - np.gcd(own, edges)) > own * edges
+        own = wanted.copy()
+        own[strips] = _steps_of_strips(levels[strips], edges[strips])
+        apart = np.flatnonzero(own != edges)
+        n, e = own.ravel()[apart], edges.ravel()[apart]
+        short = 2 * wanted.ravel()[apart] * (n - np.gcd(n, e)) > n * e
         if not short.any():
             return edges
-        next_multiple = -(-edges // own) * own
-        finer = np.where(short, np.where(own > MANY, next_multiple, edges + 1), edges)
+        apart, n, e = apart[short], n[short], e[short]
         finest = np.zeros(int(numbers.max()) + 1, np.int64)
-        np.maximum.at(finest, numbers.ravel(), finer.ravel())
-        edges = finest[numbers]
+        finest[numbers] = edges.ravel()
+        np.maximum.at(finest, numbers[apart], np.where(n > MANY, -(-e // n) * n, e + 1))
+        edges = finest[numbers].reshape(edges.shape)
+
+
+def _steps_of_strips(levels: NDArray[np.int64], edges: NDArray[np.int64]) -> NDArray[np.int64]:
+    """The steps (k, 4) along edges (k, 4) that `stitched_patch` gives patches with one step in u or
+    in v."""
+    fewer, in_u = np.minimum(edges, edges[:, [2, 3, 0, 1]]), levels[:, :1] > 1
+    along = np.where(in_u, [False, True, False, True], [True, False, True, False])
+    return np.where(along, fewer, levels[:, [1, 0, 1, 0]])
 
 
 MANY = 64  # steps, above which a few more on an edge are sought no longer

@@ -130,6 +130,8 @@ class Adaptive:
             inner = grid_levels(inner, edges)
             inner, edges, tiles = in_tiles(inner, edges, numbers, HARDWARE_LEVEL)
         whole = Plan(seen, inner, edges, tiles, falling[seen])
+        if len(body) == 1:
+            return [whole]
         plans, before = [], 0
         for k, size in enumerate(sizes):
             plan = whole.take(np.flatnonzero(owner[seen] == k))

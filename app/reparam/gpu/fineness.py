@@ -10,7 +10,7 @@ from ..geometry.camera import Camera
 from ..scenes.layers import Patches
 from .evaluation import Evaluation, orders, patch_count
 from .nets import NET_UNIT
-from .programs import Programs
+from .programs import Programs, degree_defines
 
 MAP_UNIT = NET_UNIT - 1
 
@@ -40,6 +40,8 @@ class Fineness:
         textured = sought is not layer.net
         wanted = {"TEXTURED": textured, "SOLID": layer.solid, "ONE_WAY": one_way}
         defines = {name: 1 for name, on in wanted.items() if on}
+        nets = {"POSITION_": layer.net} | ({"TEXTURE_": sought} if textured else {})
+        defines |= degree_defines(**{name: orders(net) for name, net in nets.items()})
         program = self._programs.get("levels.vert", defines=defines, varyings=("steps",))
         self._evaluation.texture(layer.net).use(NET_UNIT)
         program.set(
