@@ -1,16 +1,13 @@
-"""What the callbacks of the tessellator mode are told, and the forms of arguments."""
+"""What the callbacks of the tessellator mode are told."""
 
 from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
 from reparam.evaluators.constants import (
     GL_LINE_STRIP,
     GL_MAP1_VERTEX_4,
     GL_MAP2_TEXTURE_COORD_3,
-    GL_MAP2_VERTEX_3,
     GL_MAP2_VERTEX_4,
     GL_QUAD_STRIP,
 )
@@ -75,26 +72,3 @@ def test_callbacks_with_data_and_undivided_curves() -> None:
     nurb.gluNurbsCallbackData("mine")
     nurb.gluNurbsCurve([0, 0, 1, 1], [[2, 0, 0, 2], [4, 6, 0, 2]], GL_MAP1_VERTEX_4)
     assert heard == [(GL_LINE_STRIP, "mine"), [2, 0, 0, 2], [4, 6, 0, 2]]
-
-
-def test_argument_forms_agree() -> None:
-    """C's, C's without the counts, PyOpenGL's; strides swapped and padded."""
-    points = np.random.default_rng(11).normal(size=(4, 5, 3)).astype(np.float32)
-    padded = np.zeros((5, 4, 7), np.float32)
-    padded[..., :3] = points.swapaxes(0, 1)
-    u, v = [0, 0, 0, 0, 1, 1, 1, 1], [0.0, 0.0, 0.0, 0.0, 0.5, 1.0, 1.0, 1.0, 1.0]
-    forms = [
-        (8, u, 9, v, 15, 3, points.ravel(), 4, 4, GL_MAP2_VERTEX_3),
-        (8, [*u, 7.0], 9, v, 7, 28, padded, 4, 4, GL_MAP2_VERTEX_3),
-        (u, v, 15, 3, points, 4, 4, GL_MAP2_VERTEX_3),
-        (u, v, points, GL_MAP2_VERTEX_3),
-    ]
-    found = []
-    for form in forms:
-        nurb = NurbsRenderer()
-        nurb.gluNurbsSurface(*form)
-        (nurbs,) = nurb.take()
-        (spline,) = nurbs.splines
-        found.append((spline.orders, [k.tolist() for k in spline.knots], spline.points.tolist()))
-    assert all(form == found[0] for form in found)
-    assert found[0][2] == points.tolist()

@@ -220,3 +220,18 @@ def test_attributes_are_pushed_and_popped(gl: Recorder) -> None:
         gl.glPopAttrib()
     with pytest.raises(ev.StackUnderflow, match="glPopAttrib"):
         gl.glPopAttrib()
+
+
+def test_colours_in_bytes_and_whole_numbers(gl: Recorder) -> None:
+    gl.glColor3ub(255, 0, 51)
+    np.testing.assert_allclose(gl.glGetFloatv(ev.GL_CURRENT_COLOR), [1, 0, 0.2, 1], atol=1e-7)
+    gl.glColor4ubv([0, 255, 0, 0])
+    assert gl.glGetFloatv(ev.GL_CURRENT_COLOR).tolist() == [0, 1, 0, 0]
+    gl.glTexCoord2i(3, 4)
+    gl.glBegin(GL_POINTS)
+    gl.glVertex2i(1, 2)
+    gl.glEnd()
+    (point,) = recorded(gl)
+    assert isinstance(point, Collection)
+    assert point.given["vertex"].tolist() == [[1, 2, 0, 1]]
+    assert point.given["texcoord"].tolist() == [[3, 4, 0, 1]]

@@ -21,6 +21,7 @@ from reparam.evaluators import (
     GL_MAP2_VERTEX_3,
     Evaluators,
     InvalidOperation,
+    InvalidValue,
     Light,
     Recording,
 )
@@ -202,3 +203,13 @@ def test_a_recording_is_brought_to_the_gpu_once_and_its_memory_given_back(
     (buffers,) = released
     assert buffers
     assert all(isinstance(buffer.mglo, moderngl.InvalidObject) for buffer in buffers)
+
+
+def test_what_cannot_be_drawn_is_named(gl: Evaluators) -> None:
+    mesh = square_mesh(gl)
+    with pytest.raises(InvalidValue, match=r"draw: recording: .*, found a tuple"):
+        gl.draw((mesh,))  # type: ignore[arg-type]
+    with pytest.raises(InvalidValue, match=r"read: recording: .*, found a Batch"):
+        gl.read(mesh.batches[0])  # type: ignore[arg-type]
+    with pytest.raises(InvalidValue, match="draw: light: expected a Light, found 2"):
+        gl.draw(mesh, light=2)  # type: ignore[arg-type]

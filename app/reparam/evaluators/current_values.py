@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
 from .arguments import padded
 from .maps import FILL, Attribute
 from .recording import Current
@@ -43,6 +45,13 @@ class CurrentValues:
     glColor4f = glColor4d = glColor4fv = glColor4dv = glColor
     glNormal3f = glNormal3d = glNormal3fv = glNormal3dv = glNormal
     glTexCoord1f = glTexCoord1d = glTexCoord2f = glTexCoord2d = glTexCoord
+    glTexCoord1i = glTexCoord2i = glTexCoord3i = glTexCoord4i = glTexCoord
     glTexCoord3f = glTexCoord3d = glTexCoord4f = glTexCoord4d = glTexCoord
     glTexCoord1fv = glTexCoord2fv = glTexCoord3fv = glTexCoord4fv = glTexCoord
+
+    def glColor3ub(self, *color: Any) -> None:
+        """Three or four numbers from 0 to 255."""
+        self.glColor(np.ravel(color) / 255.0)
+
+    glColor4ub = glColor3ubv = glColor4ubv = glColor3ub
     glIndexf = glIndexd = glIndex

@@ -104,7 +104,7 @@ def pwl_argument(*arguments: Any) -> PwlTrim:
         raise error(f"{call}: type: expected GLU_MAP1_TRIM_2 or _3, found {kind!r}")
     if points is None:
         raise NullControlPoints(f"{call}: points: expected an array, found None")
-    if count < 0:
+    if _whole(call, "count", count) < 0:
         raise NegativeCount(f"{call}: count: expected at least 0, found {count}")
     _check_stride(call, stride)
     net = _points(call, TRIM_COMPONENTS[kind], points, (stride,), (count,))
@@ -129,15 +129,30 @@ def _components(call: str, kind: int, dimension: int) -> int:
     return target.components
 
 
+def _whole(call: str, name: str, value: Any) -> int:
+    if isinstance(value, (int, np.integer)):
+        return int(value)
+    raise GluInvalidValue(f"{call}: {name}: expected a whole number, found {value!r}")
+
+
+def _numbers(call: str, name: str, values: ArrayLike) -> Array:
+    try:
+        return np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise GluInvalidValue(
+            f"{call}: {name}: expected an array of numbers, found {error}"
+        ) from None
+
+
 def _counted(call: str, count: int, knots: ArrayLike) -> Array:
-    values = np.asarray(knots, dtype=np.float64).ravel()
-    if count > len(values):
+    values = _numbers(call, "knots", knots).ravel()
+    if _whole(call, "knot count", count) > len(values):
         raise GluInvalidValue(f"{call}: knots: expected {count} numbers, found {len(values)}")
     return values[: max(count, 0)]
 
 
 def _check_stride(call: str, stride: int | None) -> None:
-    if stride is not None and stride < 0:
+    if stride is not None and _whole(call, "stride", stride) < 0:
         raise NegativeStride(f"{call}: stride: expected at least 0, found {stride}")
 
 
@@ -154,20 +169,26 @@ def _net(
         raise NullControlPoints(f"{call}: control points: expected an array, found None")
     for stride in strides:
         _check_stride(call, stride)
+    net = _numbers(call, "points", points)
+    if orders[0] is None and net.ndim != len(knots) + 1:
+        expected = "(m, n, " if len(knots) == 2 else "(n, "
+        raise GluInvalidValue(
+            f"{call}: points: expected an array {expected}{components}), found shape {net.shape}; "
+            "a flat buffer needs its strides and orders"
+        )
     counts, checked, found = [], [], []
     with np.errstate(over="ignore"):
-        rounded = [np.asarray(t, dtype=np.float64).astype(np.float32) for t in knots]
+        rounded = [_numbers(call, "knots", t).astype(np.float32).ravel() for t in knots]
     for axis, values in enumerate(rounded):
-        order = orders[axis]
-        if order is None:
-            order = values.size - (*np.shape(points), 0, 0)[axis]
+        given = orders[axis]
+        order = values.size - net.shape[axis] if given is None else _whole(call, "order", given)
         try:
             checked.append(check_knots(values, order, max_order=MAX_ORDER))
         except KnotError as fault:
             raise KNOT_ERRORS[fault.fault](f"{call}: {fault}") from None
         counts.append(values.size - order)
         found.append(order)
-    return _points(call, components, points, strides, counts), tuple(checked), tuple(found)
+    return _points(call, components, net, strides, counts), tuple(checked), tuple(found)
 
 
 def _points(
@@ -178,7 +199,7 @@ def _points(
     counts: Sequence[int],
 ) -> Array:
     """Points (*counts, components) from an array of that shape, or from a buffer with strides."""
-    values = np.asarray(points, dtype=np.float64)
+    values = _numbers(call, "points", points)
     if strides[0] is None:
         if values.shape != (*counts, components):
             expected = (*counts, components)

@@ -100,15 +100,26 @@ def _row(call: str, name: int) -> tuple[str, Callable[[float], float | None], st
 def changed(properties: Properties, name: int, value: float) -> Properties:
     """With one property set. Raises GluInvalidEnum or GluInvalidValue."""
     field, keep, expected, error = _row("gluNurbsProperty", name)
-    kept = keep(float(value))
+    try:
+        kept, found = keep(float(value)), f"{value:g}"
+    except (TypeError, ValueError):
+        kept, found = None, repr(value)
     if kept is None:
-        raise error(f"gluNurbsProperty: {NAMES[name]}: expected {expected}, found {value:g}")
+        raise error(f"gluNurbsProperty: {NAMES[name]}: expected {expected}, found {found}")
     return replace(properties, **{field: kept})  # type: ignore[arg-type]
 
 
 def value_of(properties: Properties, name: int) -> float:
     """A property as gluGetNurbsProperty hands it back. Raises GluInvalidEnum."""
     return float(getattr(properties, _row("gluGetNurbsProperty", name)[0]))
+
+
+def _numbers(values: ArrayLike) -> Array:
+    """In one row; none where they are no numbers."""
+    try:
+        return np.asarray(values, dtype=np.float64).ravel()
+    except (TypeError, ValueError):
+        return np.zeros(0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,18 +139,20 @@ class View:
         """
         matrices = []
         for name, numbers in (("modelMatrix", modelview), ("projMatrix", projection)):
-            matrix = np.asarray(numbers, dtype=np.float64).ravel()
+            matrix = _numbers(numbers)
             if matrix.shape != (16,) or not np.isfinite(matrix).all():
                 raise GluInvalidValue(
                     f"gluLoadSamplingMatrices: {name}: expected 16 finite numbers, "
                     f"found {matrix.size}"
                 )
             matrices.append(matrix.reshape(4, 4).T)
-        corners = [int(number) for number in np.asarray(viewport).ravel()]
-        if len(corners) != 4 or min(corners[2:]) < 0:
+        corners = _numbers(viewport)
+        if len(corners) != 4 or not np.isfinite(corners).all() or min(corners[2:]) < 0.0:
             raise GluInvalidValue(
-                f"gluLoadSamplingMatrices: viewport: expected x, y, width, height, found {corners}"
+                "gluLoadSamplingMatrices: viewport: expected x, y, width, height, "
+                f"found {viewport!r}"
             )
+        corners = corners.astype(int).tolist()
         return View(matrices[0], matrices[1], (corners[0], corners[1], corners[2], corners[3]))
 
     @property

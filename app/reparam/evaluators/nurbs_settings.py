@@ -8,7 +8,7 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from . import glu_constants as k
-from .glu_errors import GluError, GluInvalidEnum
+from .glu_errors import GluError, GluInvalidEnum, GluInvalidValue
 from .nurbs_properties import UNLOADED, Properties, View, changed, value_of
 
 CALLBACKS = (k.GLU_NURBS_ERROR, *range(k.GLU_NURBS_BEGIN, k.GLU_NURBS_END_DATA + 1))
@@ -46,6 +46,12 @@ class NurbsSettings:
         if which not in CALLBACKS:
             self._fail(
                 GluInvalidEnum(f"gluNurbsCallback: which: expected GLU_NURBS_..., found {which!r}")
+            )
+        elif not (function is None or callable(function)):
+            self._fail(
+                GluInvalidValue(
+                    f"gluNurbsCallback: function: expected a function or None, found {function!r}"
+                )
             )
         elif function is None:
             self._callbacks.pop(which, None)

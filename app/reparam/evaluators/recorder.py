@@ -160,6 +160,7 @@ class Recorder(State):
         x, y, z, w = padded("glVertex", "position", position, (2, 3, 4), FILL["vertex"])
         self._add(begun, 0, (np.nan, np.nan), (x, y, z, w))
 
+    glVertex2i = glVertex3i = glVertex4i = glVertex2iv = glVertex3iv = glVertex4iv = glVertex
     glVertex2f = glVertex2d = glVertex2fv = glVertex2dv = glVertex
     glVertex3f = glVertex3d = glVertex3fv = glVertex3dv = glVertex
     glVertex4f = glVertex4d = glVertex4fv = glVertex4dv = glVertex

@@ -58,7 +58,7 @@ class Evaluators(Recorder):
         """
         from ..gpu.evaluated import read_recording
 
-        return read_recording(self._painter, recording or self.take(), evaluator)
+        return read_recording(self._painter, self._taken("read", recording), evaluator)
 
     def draw(
         self,
@@ -79,12 +79,24 @@ class Evaluators(Recorder):
         (4, 4) for column vectors, the light, and the texture, times the colour. A recording that
         is drawn again is not evaluated again.
         """
-        recording = recording or self.take()
+        recording = self._taken("draw", recording)
+        if light is not None and not isinstance(light, Light):
+            raise InvalidValue(f"draw: light: expected a Light, found {light!r}")
         if program is not None:
             self._painter.recordings.draw(recording, program)
         else:
             matrices = (_matrix("projection", projection), _matrix("modelview", modelview))
             self._painter.recordings.draw_built_in(recording, *matrices, light, texture)
+
+    def _taken(self, call: str, recording: Recording | None) -> Recording:
+        if isinstance(recording, Recording):
+            return recording
+        if recording is None:
+            return self.take()
+        raise InvalidValue(
+            f"{call}: recording: expected what take() has handed over, or glu.recording(surface), "
+            f"found a {type(recording).__name__}"
+        )
 
 
 def _matrix(name: str, given: ArrayLike | None) -> Array:
