@@ -95,7 +95,7 @@ def surface_spline(
     def steady() -> None:
         for layer in shown:
             assert isinstance(layer, Patches)
-            studio.painter.surfaces.draw(layer, camera, "vertex", LEVEL, spatial=True)
+            studio.painter.surfaces.draw(layer, camera, "vertex", LEVEL, by_sample=True)
         end_frame(studio)
 
     def edited() -> None:

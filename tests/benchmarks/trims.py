@@ -97,7 +97,7 @@ def rows(pairs: int) -> Rows:
         trimmed = Patches(net, texture, lit=True, trim=region)
         for view, evaluator, samples in product(VIEWS, evaluators, (0, 1)):
             camera, spatial = VIEWS[view]
-            draw = partial(studio.painter.surfaces.draw, spatial=spatial)
+            draw = partial(studio.painter.surfaces.draw, by_sample=spatial)
             with frames(studio, SIZE, samples) as frame:
                 ours, other = (
                     frame(partial(draw, layer, camera, evaluator, LEVEL))

@@ -186,6 +186,18 @@ def test_tangent_loops_are_told_from_crossing_ones() -> None:
         trim_region(loops)
 
 
+def test_loops_from_one_point_that_cross_elsewhere() -> None:
+    """A line, and a curve that starts below it, crosses it and comes back below it."""
+    line = np.array([(0.1, 0.1), (0.9, 0.5)])
+    curve = bezier((0.1, 0.1), (0.9 / 3 + 0.2 / 3, 0.2013), (0.1 + 1.6 / 3, 0.4227), (0.9, 0.464))
+    above = [line, np.array([(0.9, 0.5), (0.9, 0.95), (0.1, 0.95), (0.1, 0.1)])]
+    below = [curve, np.array([(0.9, 0.464), (0.9, 0.05), (0.1, 0.05), (0.1, 0.1)])]
+    with pytest.raises(CrossingTrims, match="trim loop 0, piece 0: "):
+        trim_region([above, reverse(below)])
+    apart = bezier((0.1, 0.1), (1.1 / 3, 0.18), (0.1 + 1.6 / 3, 0.36), (0.9, 0.464))
+    assert trim_region([above, reverse([apart, *below[1:]])]).area() > 0.5
+
+
 def test_parts_of_curves_and_where_they_lie() -> None:
     random = np.random.default_rng(8)
     curves = random.uniform(0.1, 1.0, (6, 5, 3))

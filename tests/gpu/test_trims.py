@@ -20,7 +20,8 @@ from reparam.gpu.painter import Painter
 from reparam.gpu.surfaces import Fine
 from reparam.gpu.targets import Target
 from reparam.gpu.trims import Trims
-from reparam.scenes.layers import Patches
+from reparam.scenes.display import Display
+from reparam.scenes.layers import Figure, Patches, Space
 from reparam.snapshot import Studio
 from trim_cases import CASES, SQUARE, circle, region_of, reverse, star
 
@@ -58,7 +59,7 @@ def drawn(
         if wireframe:
             surfaces.draw_wireframe(layer, camera, evaluator, level, (1.0, 1.0, 1.0))
         else:
-            surfaces.draw(layer, camera, evaluator, level, spatial=spatial)
+            surfaces.draw(layer, camera, evaluator, level, by_sample=spatial)
     target.resolve()
     pixels = target.pixels()[::-1].copy()
     ctx.enable_only(moderngl.NOTHING)
@@ -208,6 +209,26 @@ def test_surfaces_that_share_a_trim_curve_leave_no_crack(studio: Studio, evaluat
     pixels = drawn(studio, layers, evaluator, 4, spatial=True).astype(int)
     assert (np.abs(pixels[..., :2].sum(-1) - 255) <= 1).all()
     assert ((pixels[..., 0] > 0) & (pixels[..., 0] < 255)).sum() > 300
+
+
+def test_neighbours_in_the_plane_show_no_seam(studio: Studio) -> None:
+    """Two shares of a pixel, blended one after the other, would let the ground shine through."""
+    if studio.painter.capabilities.samples < 4:
+        pytest.skip("no multisampling")
+    hole = [reverse(circle()), star((0.5, 0.5), 0.2)]
+    regions = trim_region([SQUARE, *hole]), trim_region([reverse(loop) for loop in hole])
+    layers = tuple(Patches(FLAT, color=(0.0, 0.45, 0.7), trim=region) for region in regions)
+    target = Target(studio.ctx, (SIZE, SIZE), 4, studio.painter.capabilities)
+    kinds = []
+    for shown in (layers, layers[:1]):
+        figure = Figure((Space("plane", np.array([(0.0, 0.0, 0.0), (1.0, 1.0, 0.0)]), shown),))
+        studio.painter.draw(figure, target, Display(), plain=True)
+        pixels = target.pixels()[40:-40, 40:-40].reshape(-1, 3)
+        kinds.append(len(np.unique(pixels, axis=0)))
+    target.release()
+    studio.ctx.extra.use()
+    assert kinds[0] == 1
+    assert kinds[1] > 20  # one alone has an edge of many shares
 
 
 @pytest.mark.parametrize("evaluator", EVALUATORS)

@@ -41,8 +41,8 @@ class Look:
     edges: Edges = "shares"  # of what is trimmed, where pixels have several samples
 
 
-def look_of(layer: Patches, shading: Shading, scale: Scale, spatial: bool) -> Look:
-    """Of a layer that is shown by a shading, in space or in the plane."""
+def look_of(layer: Patches, shading: Shading, scale: Scale, by_sample: bool) -> Look:
+    """Of a layer that is shown by a shading; `by_sample` as in Surfaces.draw."""
     look = Look(layer.color)
     if shading in DISTORTION:
         look = Look(WHITE, shading, scale, pictured=False, map=attached_by(layer))
@@ -51,7 +51,7 @@ def look_of(layer: Patches, shading: Shading, scale: Scale, spatial: bool) -> Lo
         look = Look(color, shading, scale, pictured=False)
     elif layer.texture is not None and layer.texture.exact:
         look = Look(layer.color, map=layer.texture.net)
-    return replace(look, edges="samples") if spatial else look
+    return replace(look, edges="samples") if by_sample else look
 
 
 class Looks:

@@ -191,9 +191,10 @@ class Painter:
                 off = display.tolerance
                 beside = tuple(each for each in panel.space.layers if isinstance(each, Patches))
                 fine: Fine = Tolerance(off, viewport, beside) if off else display.level
+                several = sum(each.trim is not None for each in beside) > 1
                 self.surfaces.draw(
                     layer, camera, evaluator, fine, shading, scale,
-                    spatial=panel.space.spatial,
+                    by_sample=panel.space.spatial or several,
                 )  # fmt: skip
                 if display.wireframe:
                     nearer = camera.nearer(1e-3)

@@ -51,16 +51,18 @@ class Surfaces:
         shading: Shading = "light",
         scale: Scale = PLAIN_SCALE,
         *,
-        spatial: bool = False,
+        by_sample: bool = False,
     ) -> None:
         """The layer as its picture, colour and light say; if lit, as `shading` says instead, and if
         that is about textures or triangles, lit or not.
 
         `scale` says which value is white and which has the full colour. The edge of a trimmed
-        surface is blended with what is behind it; in space that may not be drawn yet, so there each
-        of the pixel's samples is decided, and surfaces that share a trim curve meet.
+        surface is blended with what is behind it by the share of the pixel that stays. With
+        `by_sample` each of the pixel's samples is decided instead: in space, where what is behind
+        may not be drawn yet, and for surfaces that share a trim curve, where two shares would let
+        the ground shine through.
         """
-        self._draw(layer, camera, evaluator, fine, look_of(layer, shading, scale, spatial))
+        self._draw(layer, camera, evaluator, fine, look_of(layer, shading, scale, by_sample))
 
     def draw_wireframe(
         self, layer: Patches, camera: Camera, evaluator: str, fine: Fine, color: Color
