@@ -2,6 +2,12 @@
 
 Accuracy is measured, at every fragment, as `reparam accuracy` does it; triangles are counted by
 OpenGL. With the whole body in view, and in close-ups where most patches are out of view.
+
+Of a quadratic patch's bound a tenth to a quarter is left over, since f'' might be at its largest
+for each edge of a triangle at another place. Third derivatives tell that it is not: 12 to 15
+percent fewer triangles where the blend ratio is 0.1, up to 7 elsewhere. That is not done: where
+triangles are seen from their edge, rasterisers then show more than one fragment in 10,000 beyond
+the tolerance, though in float64 none is.
 """
 
 from __future__ import annotations

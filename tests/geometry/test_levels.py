@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -24,6 +25,7 @@ from reparam.geometry.levels import (
 from reparam.geometry.net import Array, control_net, raise_degree
 from reparam.geometry.planar_maps import R
 from reparam.geometry.stitching import stitched_patch
+from reparam.geometry.torus import two_halves
 
 SCALE = (256.0, 200.0)
 TOLERANCE = 0.5
@@ -194,6 +196,34 @@ def test_steps_keep_the_tolerance_and_are_few(shape: tuple[int, int], rational: 
     ratio = (steps.prod(-1) / best)[np.isfinite(best)]
     assert np.median(ratio) < 1.05
     assert ratio.max() < 1.5
+
+
+def test_rough_weights_do_not_mislead_the_search() -> None:
+    """What so many steps use up tells how many are enough only where the steps are short."""
+    random = np.random.default_rng(3)
+    nets = random.uniform(-1, 1, (40, 3, 3, 4))
+    nets[..., 3] = 1.0
+    nets *= 10.0 ** random.uniform(-1.0, 1.0, (40, 3, 3, 1))
+    s = bends(nets, SCALE)
+    trial = np.unique(np.geomspace(1, FINEST, 60).astype(int))
+    trials = np.stack(np.meshgrid(trial, trial, indexing="ij"), -1)[:, :, None]
+    fine = share_used(s, trials, 4.0) <= 1.0
+    best = np.where(fine, trials.prod(-1), np.inf).min((0, 1))
+    assert (fewest_steps(s, 4.0).prod(-1) <= 2.0 * best).all()
+
+
+def test_what_a_point_moves_within_a_triangle_counts() -> None:
+    """Nothing bends of a patch measured by places of its own, but its weights do."""
+    s = bends(two_halves().patches().reshape(-1, 3, 3, 4)[0], SCALE)
+    assert s.speed.all()
+    straight = replace(s, uu=0.0 * s.uu, uv=0.0 * s.uv, vv=0.0 * s.vv, spread=0.0 * s.spread)
+    for name in ("from_u", "from_v", "edge", "between"):
+        straight = replace(straight, **{name: 0.0 * getattr(s, name)})
+    used = share_used(straight, np.array([20.0, 10.0]), TOLERANCE)
+    squares = s.weight @ [1 / 400, 2 / 200, 1 / 100] / 8.0
+    moved = s.speed @ [1 / 20, 1 / 10] / 3.0
+    clear = 1.0 - s.growth @ [1 / 20, 1 / 10]
+    assert float(used) == pytest.approx(float(squares * moved / clear / TOLERANCE))
 
 
 def test_a_map_bent_another_way_has_a_say_in_the_slope() -> None:
