@@ -74,6 +74,7 @@ endif
 $(BIN)/python:
 	@.ci/system-packages $(PYTHON) python3-venv
 	@echo "setting up $(CURDIR)/$(VENV) (once; a minute)"
+	@test ! -L $(VENV) || rm $(VENV) # another checkout's, which --clear would empty
 	@$(PYTHON) -m venv --clear $(VENV)
 	@echo "$(CURDIR) $(PYTHON)" >$(VENV)/of
 
