@@ -48,21 +48,23 @@ vec4 net_point(sampler2D net, int first, int degree, float basis[MAX_ORDER]) {
     return sum;
 }
 
-// And with two bases at once: each control point is fetched once.
+// And with two bases at once: each control point is fetched once. The slopes of a basis sum to 0,
+// so differences have the same sum:  w' is exactly 0 where all w are 1, far outside [0,1] too.
 vec4 net_point(sampler2D net, int first, int degree, float basis[MAX_ORDER],
                float slope[MAX_ORDER], out vec4 along) {
     PRECISE vec4 sum = vec4(0.0);
+    vec4 start = control_point(net, first);
     along = vec4(0.0);
     for (int j = 0; j <= degree / 2; ++j) {
         int k = degree - j;
         vec4 control = control_point(net, first + j);
         PRECISE vec4 pair = basis[j] * control;
-        along += slope[j] * control;
+        along += slope[j] * (control - start);
         if (k != j) {
             control = control_point(net, first + k);
             PRECISE vec4 mirrored = basis[k] * control;
             pair = pair + mirrored;
-            along += slope[k] * control;
+            along += slope[k] * (control - start);
         }
         sum = sum + pair;
     }
@@ -91,12 +93,13 @@ vec4 evaluate_derivatives(sampler2D net, int patch_index, ivec2 degree, vec4 uv,
     bernstein_derivative(degree.x, uv.xy, row_slope);
     bernstein_derivative(degree.y, uv.zw, column_slope);
     int first = patch_index * (degree.x + 1) * (degree.y + 1);
-    vec4 curve[MAX_ORDER], across[MAX_ORDER];
+    vec4 curve[MAX_ORDER], ahead[MAX_ORDER], across[MAX_ORDER];
     for (int i = 0; i <= degree.x; ++i) {
         int row_first = first + i * (degree.y + 1);
         curve[i] = net_point(net, row_first, degree.y, column, column_slope, across[i]);
+        ahead[i] = curve[i] - curve[0];
     }
-    along_u = curve_point(degree.x, row_slope, curve);
+    along_u = curve_point(degree.x, row_slope, ahead);
     along_v = curve_point(degree.x, row, across);
     return curve_point(degree.x, row, curve);
 }

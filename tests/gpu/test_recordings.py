@@ -24,6 +24,7 @@ from reparam.evaluators import (
     GL_POINT,
     Evaluators,
 )
+from reparam.geometry.net import control_net
 from reparam.geometry.normal import surface_normal
 from reparam.geometry.planar_maps import R
 from reparam.snapshot import Studio
@@ -132,6 +133,22 @@ def test_singular_points_have_the_limit_as_normal(gl: Evaluators, evaluator: str
     gl.glEvalMesh2(GL_POINT, 0, 1, 0, 1)
     (corners,) = gl.read(evaluator=evaluator)
     np.testing.assert_allclose(np.abs(corners.normals), [[0, 0, 1]] * 4, atol=1e-3)
+
+
+@pytest.mark.parametrize("evaluator", PATHS)
+@pytest.mark.parametrize("order", [4, 8, 12])
+def test_normals_far_outside_the_domain(gl: Evaluators, evaluator: str, order: int) -> None:
+    """Slopes of the basis, thousands there, sum to 0 but for rounding, which turned the normal."""
+    net = np.random.default_rng(order).normal(size=(order, order, 3))
+    surface(gl, net)
+    at = np.float32([(-1.5, 0.4), (0.3, -1.5), (0.3, 2.5)])
+    gl.glBegin(ev.GL_POINTS)
+    for u, v in at:
+        gl.glEvalCoord2f(u, v)
+    gl.glEnd()
+    (found,) = gl.read(evaluator=evaluator)
+    exact = surface_normal(control_net(np.float32(net)), *at.astype(float).T)
+    np.testing.assert_allclose(found.normals, exact, atol=2e-6)
 
 
 @pytest.mark.parametrize("evaluator", PATHS)
