@@ -49,22 +49,23 @@ vec4 net_point(sampler2D net, int first, int degree, float basis[MAX_ORDER]) {
 }
 
 // And with two bases at once: each control point is fetched once. The slopes of a basis sum to 0,
-// so differences have the same sum:  w' is exactly 0 where all w are 1, far outside [0,1] too.
+// so differences of weights have the sum of weights: it is 0 where all are 1, not rounding alone,
+// which is much far outside [0,1].
 vec4 net_point(sampler2D net, int first, int degree, float basis[MAX_ORDER],
                float slope[MAX_ORDER], out vec4 along) {
     PRECISE vec4 sum = vec4(0.0);
-    vec4 start = control_point(net, first);
+    vec4 weight = vec4(0.0, 0.0, 0.0, control_point(net, first).w);
     along = vec4(0.0);
     for (int j = 0; j <= degree / 2; ++j) {
         int k = degree - j;
         vec4 control = control_point(net, first + j);
         PRECISE vec4 pair = basis[j] * control;
-        along += slope[j] * (control - start);
+        along += slope[j] * (control - weight);
         if (k != j) {
             control = control_point(net, first + k);
             PRECISE vec4 mirrored = basis[k] * control;
             pair = pair + mirrored;
-            along += slope[k] * (control - start);
+            along += slope[k] * (control - weight);
         }
         sum = sum + pair;
     }
@@ -97,7 +98,7 @@ vec4 evaluate_derivatives(sampler2D net, int patch_index, ivec2 degree, vec4 uv,
     for (int i = 0; i <= degree.x; ++i) {
         int row_first = first + i * (degree.y + 1);
         curve[i] = net_point(net, row_first, degree.y, column, column_slope, across[i]);
-        ahead[i] = curve[i] - curve[0];
+        ahead[i] = curve[i] - vec4(0.0, 0.0, 0.0, curve[0].w);
     }
     along_u = curve_point(degree.x, row_slope, ahead);
     along_v = curve_point(degree.x, row, across);
