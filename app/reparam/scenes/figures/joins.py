@@ -110,10 +110,11 @@ def curve_layers(f: Array, g: Array, own: list[Array]) -> tuple[Array, tuple[Lay
     scale = 0.4 * size / max(float(np.linalg.norm(x)) for x in (before, after, [1e-12]))
     bends = np.cross(before + after, everything - joint[0])[:, 2].sum()
     outside = 1.0 if bends <= 0.0 else -1.0
-    tips = []
+    tips, shorter = [], np.linalg.norm(before) < np.linalg.norm(after)
+    lanes = (2.0, 1.0) if shorter else (1.0, 2.0)  # no arrow runs through the other's name
     for at, vector, color, name, lane in (
-        (joint[0], before, FIRST, "f′(1)", 1.0),
-        (joint[1], after, SECOND, "g′(0)", 2.0),
+        (joint[0], before, FIRST, "f′(1)", lanes[0]),
+        (joint[1], after, SECOND, "g′(0)", lanes[1]),
     ):
         along = vector / max(float(np.linalg.norm(vector)), 1e-12)
         across = outside * np.array([-along[1], along[0], 0.0])
