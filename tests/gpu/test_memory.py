@@ -83,8 +83,11 @@ def made(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
 
 
 @pytest.mark.parametrize("evaluator", ["vertex", "tessellation"])
-def test_no_object_outlives_its_use(studio: Studio, made: list[Any], evaluator: str) -> None:
-    subject = open_subject("fig5").changed("level", 4).changed("net", True)
+@pytest.mark.parametrize(("name", "fine"), [("level", 4), ("tolerance", 0.5)])
+def test_no_object_outlives_its_use(
+    studio: Studio, made: list[Any], evaluator: str, name: str, fine: float
+) -> None:
+    subject = open_subject("fig5").changed(name, fine).changed("net", True)
     studio.evaluator = evaluator
     alive = []
     try:
