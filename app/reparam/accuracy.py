@@ -11,8 +11,8 @@ import numpy as np
 
 from .geometry.net import Array
 from .gpu.accuracy import Drawn, deviations, picture_deviations, silhouette
-from .gpu.adaptive import Tolerance, uniform_plan
 from .gpu.arrangement import arrange
+from .gpu.plans import Tolerance, uniform_plan
 from .gpu.recorded_meshes import RecordedMeshes, recorded_meshes
 from .scenes.layers import Patches, Recorded
 from .snapshot import Studio
@@ -24,9 +24,9 @@ FORGIVEN = 1e-4  # share of the fragments: triangles thinner than the rasteriser
 @dataclass(frozen=True)
 class Accuracy:
     """A layer drawn alone, without its trims, or of a recorded one what is filled meshes of one
-    shape: pixels between a fragment's centre and the exact
-    surface point of its own patch and (u, v); the same for what its picture shows there, if it has
-    a map of its own; and between the drawn outline and the exact one (gpu/accuracy.py)."""
+    shape: pixels between a fragment's centre and the exact surface point of its own patch and
+    (u, v); the same for what its picture shows there, if it has a map of its own; and between the
+    drawn outline and the exact one (gpu/accuracy.py)."""
 
     layer: int
     evaluator: str
@@ -36,9 +36,9 @@ class Accuracy:
     mean: float
     most: float  # of all fragments but the FORGIVEN share
     worst: float
-    picture: float | None  # as `most`
     silhouette: float
-    tolerance: float  # 0: nothing is promised
+    picture: float | None = None  # as `most`
+    tolerance: float = 0.0  # 0: nothing is promised
     recorded: bool = False  # by glEvalMesh2, in its own grid; else in one level if not by tolerance
 
     @property
@@ -103,41 +103,33 @@ def measure(studio: Studio, subject: Subject, size: tuple[int, int]) -> Iterator
 
 def measured_meshes(number: int, meshes: RecordedMeshes) -> Accuracy:
     """Recorded ones of one shape, in the grid that glMapGrid2 gave them."""
-    off = _found(deviations(meshes))
-    return Accuracy(
-        layer=number,
-        evaluator="vertex",
-        patches=len(meshes.nets),
-        triangles=meshes.triangles,
-        fragments=len(off),
-        mean=float(off.mean()),
-        most=_most(off),
-        worst=float(off.max()),
-        picture=None,
-        silhouette=silhouette(meshes),
-        tolerance=0.0,
-        recorded=True,
-    )
+    found = _measured(meshes, number, "vertex", len(meshes.nets), meshes.triangles)
+    return replace(found, recorded=True)
 
 
 def measured(number: int, drawn: Drawn, tolerance: float) -> Accuracy:
     """One layer by one evaluator."""
-    off, texture = _found(deviations(drawn)), drawn.layer.texture
-    picture = None
+    plan, texture, picture = drawn.plan, drawn.layer.texture, None
     if texture is not None and not texture.exact and texture.net is not drawn.layer.net:
         picture = _most(picture_deviations(drawn))
+    found = _measured(drawn, number, drawn.evaluator, len(plan.patches), plan.triangles())
+    return replace(found, picture=picture, tolerance=tolerance)
+
+
+def _measured(
+    drawn: Drawn | RecordedMeshes, number: int, evaluator: str, patches: int, triangles: int
+) -> Accuracy:
+    off = _found(deviations(drawn))
     return Accuracy(
         layer=number,
-        evaluator=drawn.evaluator,
-        patches=len(drawn.plan.patches),
-        triangles=drawn.plan.triangles(),
+        evaluator=evaluator,
+        patches=patches,
+        triangles=triangles,
         fragments=len(off),
         mean=float(off.mean()),
         most=_most(off),
         worst=float(off.max()),
-        picture=picture,
         silhouette=silhouette(drawn),
-        tolerance=tolerance,
     )
 
 

@@ -6,8 +6,8 @@ OpenGL. With the whole body in view, and in close-ups where most patches are out
 Of a quadratic patch's bound a tenth to a quarter is left over, since f'' might be at its largest
 for each edge of a triangle at another place. Third derivatives tell that it is not: 12 to 15
 percent fewer triangles where the blend ratio is 0.1, up to 7 elsewhere. That is not done: where
-triangles are seen from their edge, rasterisers then show more than one fragment in 10,000 beyond
-the tolerance, though in float64 none is.
+triangles are seen from their edge, more than one fragment in 10,000 was then beyond the tolerance
+(three handles, ratio 0.1, by tessellation on llvmpipe).
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from reparam.geometry.planar_maps import R
 from reparam.geometry.surface_spline import surface_spline
 from reparam.geometry.torus import two_halves
 from reparam.gpu.accuracy import Drawn, deviations
-from reparam.gpu.adaptive import Plan, Tolerance, uniform_plan
+from reparam.gpu.plans import Plan, Tolerance, uniform_plan
 from reparam.scenes.layers import Patches
 from reparam.snapshot import Studio
 
