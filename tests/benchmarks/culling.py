@@ -18,7 +18,7 @@ from reparam.geometry.camera import Camera, View, frame
 from reparam.geometry.evaluate import sample_surface
 from reparam.geometry.meshes import MESHES
 from reparam.geometry.surface_spline import surface_spline
-from reparam.gpu.adaptive import Tolerance
+from reparam.gpu.plans import Tolerance
 from reparam.scenes.layers import Patches
 from reparam.snapshot import Studio
 

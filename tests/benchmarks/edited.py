@@ -25,9 +25,9 @@ from reparam.bench import Rows, Skipped, interleave
 from reparam.geometry.bernstein import bernstein
 from reparam.geometry.net import Array
 from reparam.gpu.accuracy import Drawn, deviations
-from reparam.gpu.adaptive import Tolerance
 from reparam.gpu.looks import Look
 from reparam.gpu.meshes import triangle_indices
+from reparam.gpu.plans import Tolerance
 from reparam.gpu.surfaces import Fine
 from reparam.scenes.layers import Patches
 from reparam.snapshot import Studio

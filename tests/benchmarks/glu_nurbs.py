@@ -34,7 +34,7 @@ from reparam.geometry.evaluate import sample_surface
 from reparam.geometry.extraction import surface_to_bezier
 from reparam.geometry.net import Array
 from reparam.gpu.accuracy import Drawn, deviations
-from reparam.gpu.adaptive import Tolerance
+from reparam.gpu.plans import Tolerance
 from reparam.scenes.layers import Patches
 from reparam.snapshot import Studio
 

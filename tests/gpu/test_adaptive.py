@@ -23,8 +23,9 @@ from reparam.geometry.surface_spline import surface_spline
 from reparam.geometry.torus import two_halves
 from reparam.gpu import adaptive
 from reparam.gpu.accuracy import Drawn, deviations
-from reparam.gpu.adaptive import Plan, Tolerance, tiled, uniform_plan
+from reparam.gpu.adaptive import tiled
 from reparam.gpu.painter import Painter
+from reparam.gpu.plans import Plan, Tolerance, uniform_plan
 from reparam.gpu.targets import Target
 from reparam.gpu.tiles import draws
 from reparam.scenes.display import Display

@@ -22,8 +22,8 @@ from reparam.geometry.levels import (
 from reparam.geometry.meshes import MESHES
 from reparam.geometry.net import Array
 from reparam.geometry.surface_spline import surface_spline
-from reparam.gpu.adaptive import Tolerance
 from reparam.gpu.fineness import Fineness
+from reparam.gpu.plans import Tolerance
 from reparam.scenes.layers import Patches, Picture, Ramp, Texture
 from reparam.snapshot import Studio
 

@@ -14,7 +14,7 @@ from truth import random_nets
 from reparam.geometry.camera import Camera, View, frame
 from reparam.geometry.evaluate import sample_surface
 from reparam.gpu.accuracy import Drawn, deviations, located, surface_points
-from reparam.gpu.adaptive import Plan, Tolerance, uniform_plan
+from reparam.gpu.plans import Plan, Tolerance, uniform_plan
 from reparam.gpu.surfaces import Fine
 from reparam.scenes.layers import Patches
 from reparam.scenes.shading import Scale, Shading, error_color, level_color

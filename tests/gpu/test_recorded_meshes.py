@@ -23,7 +23,7 @@ from reparam.geometry.curve import restrict
 from reparam.geometry.evaluate import sample_surface
 from reparam.geometry.net import Array
 from reparam.gpu.accuracy import Drawn, deviations, silhouette
-from reparam.gpu.adaptive import uniform_plan
+from reparam.gpu.plans import uniform_plan
 from reparam.gpu.recorded_meshes import recorded_meshes
 from reparam.scenes.layers import Patches
 from reparam.snapshot import Studio

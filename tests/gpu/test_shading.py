@@ -18,7 +18,7 @@ from reparam.geometry.evaluate import evaluate, project, sample_surface
 from reparam.geometry.net import Array, control_net
 from reparam.geometry.normal import surface_normal
 from reparam.geometry.parsing import parse
-from reparam.gpu.adaptive import Tolerance
+from reparam.gpu.plans import Tolerance
 from reparam.gpu.surfaces import Fine
 from reparam.scenes.layers import Kind, Patches, Picture, Ramp, Texture
 from reparam.scenes.shading import (

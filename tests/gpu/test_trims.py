@@ -15,8 +15,8 @@ from reparam.geometry.camera import Camera
 from reparam.geometry.net import Array, control_net
 from reparam.geometry.trimming import TrimRegion, trim_region
 from reparam.geometry.trimming.lookup import CUT, INSIDE, OUTSIDE, boxes_kept, pixel_coverage
-from reparam.gpu.adaptive import Tolerance, uniform_plan
 from reparam.gpu.painter import Painter
+from reparam.gpu.plans import Tolerance, uniform_plan
 from reparam.gpu.surfaces import Fine
 from reparam.gpu.targets import Target
 from reparam.gpu.trims import Trims

@@ -15,10 +15,10 @@ from ..geometry.camera import Camera
 from ..geometry.net import Array
 from ..geometry.silhouette import distances, outline
 from ..scenes.layers import Patches
-from .adaptive import Plan, SetCommon
 from .context import bound
 from .evaluation import patch_count
 from .painter import Painter
+from .plans import Plan, SetCommon
 from .programs import Program
 from .targets import check_size
 

@@ -9,10 +9,8 @@ from numpy.typing import NDArray
 from ..geometry.camera import Camera
 from ..scenes.layers import Patches
 from .evaluation import Evaluation, orders, patch_count
-from .nets import NET_UNIT
+from .nets import MAP_UNIT, NET_UNIT
 from .programs import Programs, degree_defines
-
-MAP_UNIT = NET_UNIT - 1
 
 
 class Fineness:

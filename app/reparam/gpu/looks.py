@@ -12,8 +12,7 @@ from ..geometry.camera import Camera
 from ..scenes.layers import Color, Patches, Picture, Ramp, Texture
 from ..scenes.shading import DISTORTION, DRAWN, PLAIN_SCALE, Scale, Shading, attached_by
 from .evaluation import Evaluation, orders, patch_count
-from .fineness import MAP_UNIT
-from .nets import NET_UNIT
+from .nets import MAP_UNIT, NET_UNIT
 from .pictures import Pictures
 from .programs import Program, degree_defines
 from .trims import Edges, Trims, trim_defines

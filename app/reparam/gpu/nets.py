@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from ..errors import GraphicsError
 
 NET_UNIT = 15  # a texture unit that every stage of every OpenGL 3.3 has, far from a user's own
+MAP_UNIT = NET_UNIT - 1  # and one more, for a texture map
 NET_WIDTH = 4096  # texels in a row; 2^26 control points fit where textures reach 16384
 
 

@@ -25,10 +25,10 @@ from ..scenes.layers import (
     Recorded,
 )
 from ..scenes.shading import OF_SUBJECT, Scale, Shading
-from .adaptive import Tolerance
 from .arrangement import UNITS, Panel, arrange
 from .context import Capabilities, capabilities
 from .evaluation import Evaluation
+from .plans import Tolerance
 from .programs import Programs
 from .shapes import Shapes, draw_legend
 from .surfaces import Fine, Surfaces

@@ -14,10 +14,10 @@ from ..geometry.camera import Camera
 from ..geometry.curve import restrict
 from ..geometry.net import Array
 from .accuracy import Floats, Ints, Measurable
-from .adaptive import SetCommon
 from .context import bound
 from .evaluated import exact
 from .painter import Painter
+from .plans import SetCommon
 from .readback import read_at
 
 

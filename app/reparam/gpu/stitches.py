@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import moderngl
 import numpy as np
 
 from ..geometry.stitching import stitched
 from .kept import Kept
+from .plans import Plan
 from .programs import Program
-
-if TYPE_CHECKING:
-    from .adaptive import Plan
 
 VERTEX = np.dtype([("patch", "i4"), ("place", "u2", 4)])
 

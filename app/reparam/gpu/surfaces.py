@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+from typing import TYPE_CHECKING
+
 import moderngl
 
 from ..geometry.camera import Camera
 from ..scenes.layers import Color, Patches
 from ..scenes.shading import PLAIN_SCALE, Scale, Shading
-from .adaptive import Adaptive, Tolerance
 from .batches import Batches
 from .context import Capabilities
 from .evaluation import Evaluation, orders, patch_count
 from .looks import Look, Looks, look_of
 from .meshes import triangle_indices
 from .pictures import Pictures
+from .plans import Tolerance
 from .programs import Program, Programs, degree_defines
 from .tiles import Tiles, draws, tile_rows, tiles
 from .trims import Part, Trims, decided
+
+if TYPE_CHECKING:
+    from .adaptive import Adaptive
 
 Fine = int | Tolerance  # steps in u and in v of every patch, or what a drawn point may be off
 
@@ -34,13 +40,19 @@ class Surfaces:
         self._ctx = ctx
         self._programs = programs
         self._evaluation = evaluation
-        self._software = capabilities.software
+        self._capabilities = capabilities
         self.pictures = Pictures(ctx, capabilities)
-        self.adaptive = Adaptive(ctx, programs, evaluation, capabilities)
         self.trims = Trims(ctx)
         self.looks = Looks(ctx, evaluation, self.pictures, self.trims)
         self._batches = Batches(evaluation)
         self._indices: dict[tuple[int, int], moderngl.Buffer] = {}
+
+    @cached_property
+    def adaptive(self) -> Adaptive:
+        """What draws by a tolerance; a plain picture starts without it."""
+        from .adaptive import Adaptive
+
+        return Adaptive(self._ctx, self._programs, self._evaluation, self._capabilities)
 
     def draw(
         self,
@@ -94,7 +106,8 @@ class Surfaces:
     def sweep(self) -> None:
         """End of a frame."""
         self._batches.sweep()
-        self.adaptive.sweep()
+        if "adaptive" in vars(self):
+            self.adaptive.sweep()
         self.trims.sweep()
 
     def forget(self) -> None:
@@ -192,7 +205,7 @@ class Surfaces:
         buffer = self._ctx.buffer(rows.tobytes())
         content = [(buffer, "1i 4i", "patch_index", "tile")]
         vertices = self._ctx.vertex_array(program.ready(), content)
-        for first, count in draws((rows[:, 3:] + 1).prod(-1), self._software):
+        for first, count in draws((rows[:, 3:] + 1).prod(-1), self._capabilities.software):
             vertices.render(moderngl.PATCHES, vertices=count, first=first)
         vertices.release()
         buffer.release()

@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from ..errors import GraphicsError
 from ..scenes.layers import Patches
-from .adaptive import Plan
 from .evaluation import patch_count
 from .kept import Kept
 from .meshes import triangle_indices
 from .nets import NET_WIDTH, net_texture
+from .plans import Plan
 from .programs import Program
 from .tiles import Tiles, tile_rows, tiles
 
