@@ -44,7 +44,7 @@ def test_the_table(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_a_broken_promise_fails() -> None:
-    kept = Accuracy(1, "vertex", 1, 2, 3, 0.1, 0.5, 0.9, None, 0.5, 0.5)
+    kept = Accuracy(1, "vertex", 1, 2, 3, 0.1, 0.5, 0.9, silhouette=0.5, tolerance=0.5)
     assert kept.ok
     for name in ("most", "picture", "silhouette"):
         broken = replace(kept, **{name: 0.51})
@@ -84,5 +84,5 @@ def test_recorded_meshes_are_measured(capsys: pytest.CaptureFixture[str]) -> Non
     coarse, fine = (rows(capsys, "redbook-bezmesh", "--set", f"grid={n}")[0] for n in (3, 12))
     assert (fine["triangles"], fine["recorded"], fine["tolerance"]) == (288, True, 0.0)
     assert 10.0 < coarse["mean"] / fine["mean"] < 20.0
-    told = Accuracy(1, "vertex", 1, 2, 3, 0.1, 0.5, 0.9, None, 0.5, 0.0, recorded=True)
+    told = Accuracy(1, "vertex", 1, 2, 3, 0.1, 0.5, 0.9, silhouette=0.5, recorded=True)
     assert told.line().endswith("as recorded")
